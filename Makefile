@@ -1,0 +1,116 @@
+# hybridmesh: GNU make. `make help` lists the targets.
+
+VERSION    := $(shell sed -n 's/^.define HM_VERSION "\(.*\)"/\1/p' libcommon/hm_cli.h)
+PREFIX     ?= /usr/local
+PROGPREFIX ?=
+DESTDIR    ?=
+SANITIZE   ?=
+CC         ?= cc
+CFLAGS     ?= -O2 -g
+
+# The seven programs of the scheme need libc, libm and threads, nothing else.
+SCHEME     := bsgrid slope breaklines bsmesh trimesh stitch quality
+COMPANIONS := hmconv hmdraw
+
+# hmdraw draws with cairo; without it all other programs are built.
+CAIRO_CFLAGS := $(shell pkg-config --cflags cairo 2>/dev/null)
+CAIRO_LIBS   := $(shell pkg-config --libs cairo 2>/dev/null)
+PROGRAMS     := $(SCHEME) $(if $(CAIRO_LIBS),$(COMPANIONS),$(filter-out hmdraw,$(COMPANIONS)))
+
+B := build$(if $(SANITIZE),/san)
+Q := $(if $(V),,@)
+
+# -ffp-contract=off: the exact predicates depend on every operation being rounded by itself.
+WARN   := -Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes
+SANFLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
+HM_CFLAGS  = -std=c11 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -ffp-contract=off -pthread \
+             $(WARN) $(SANFLAGS) -Ilibcommon -MMD -MP $(CFLAGS)
+HM_LDFLAGS = -pthread $(SANFLAGS) $(LDFLAGS)
+
+LIB       := $(B)/libhm.a
+LIB_OBJ   := $(patsubst libcommon/%.c,$(B)/obj/%.o,$(wildcard libcommon/*.c))
+BIN       := $(PROGRAMS:%=$(B)/bin/%)
+GEN       := $(patsubst tests/gen/%.c,$(B)/test/%,$(wildcard tests/gen/*.c))
+UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.c))
+BENCH     := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
+
+.PHONY: all help deps demo check check-long check-san fuzz bench lint install clean FORCE
+.DELETE_ON_ERROR:
+
+all: $(BIN)
+	$(Q)$(if $(CAIRO_LIBS),:,echo "hmdraw is not built: it needs cairo (make deps installs it)")
+
+help:
+	@sed -n 's/^#: //p' Makefile
+
+#: make            build all programs in build/bin
+#: make demo       the whole chain on a generated survey, pictures and all, in ./demo
+#:                 (POINTS=survey.xyz LINES=lines.txt: the same with your own data)
+#: make check      all tests that take under two minutes
+#: make check-long the longer ones;  make check-san: make check under ASan and UBSan
+#: make fuzz       fuzz targets (SECONDS=600 each; needs clang)
+#: make bench      all benchmarks; bench-NAME for one
+#: make lint       format, static checks, man pages
+#: make deps       install missing Debian packages (root, or sudo without a password)
+#: make install    DESTDIR= PREFIX=/usr/local PROGPREFIX=
+
+$(B)/obj/%.o: libcommon/%.c
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  CC      $<")
+	$(Q)$(CC) $(HM_CFLAGS) -c -o $@ $<
+
+$(LIB): $(LIB_OBJ)
+	$(if $(Q),@echo "  AR      $@")
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+
+$(B)/bin/hmdraw: EXTRA_CFLAGS = $(CAIRO_CFLAGS)
+$(B)/bin/hmdraw: EXTRA_LIBS = $(CAIRO_LIBS)
+$(B)/bin/%: tools/%.c $(LIB)
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  LD      $@")
+	$(Q)$(CC) $(HM_CFLAGS) $(EXTRA_CFLAGS) -o $@ $< $(LIB) $(HM_LDFLAGS) $(EXTRA_LIBS) -lm
+
+define test_program
+$(B)/test/%: $(1)/%.c $(LIB)
+	@mkdir -p $$(@D)
+	$$(if $$(Q),@echo "  LD      $$@")
+	$$(Q)$$(CC) $$(HM_CFLAGS) -Itests/unit -o $$@ $$< $$(LIB) $$(HM_LDFLAGS) -lm
+endef
+$(eval $(call test_program,tests/unit))
+$(eval $(call test_program,tests/gen))
+
+demo: deps-quiet
+	$(Q)$(MAKE) --no-print-directory all $(GEN)
+	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(LINES)' tests/demo
+
+check: deps-quiet
+	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)B=$(CURDIR)/$(B) tests/run $(TESTS)
+
+check-long: deps-quiet
+	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)B=$(CURDIR)/$(B) tests/run $(wildcard tests/long/*.t)
+
+check-san:
+	$(Q)$(MAKE) --no-print-directory check SANITIZE=address,undefined
+
+deps:
+	$(Q)tests/deps install
+.PHONY: deps-quiet
+deps-quiet:
+	$(Q)tests/deps check
+
+install: all
+	$(Q)mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 \
+	    $(DESTDIR)$(PREFIX)/share/man/man5 $(DESTDIR)$(PREFIX)/share/man/man7
+	$(Q)for p in $(PROGRAMS); do \
+	    install -m 755 $(B)/bin/$$p $(DESTDIR)$(PREFIX)/bin/$(PROGPREFIX)$$p && \
+	    install -m 644 man/$$p.1 $(DESTDIR)$(PREFIX)/share/man/man1/$(PROGPREFIX)$$p.1 || exit 1; done
+	$(Q)install -m 644 man/hybridmesh.5 $(DESTDIR)$(PREFIX)/share/man/man5/
+	$(Q)install -m 644 man/hybridmesh.7 $(DESTDIR)$(PREFIX)/share/man/man7/
+
+clean:
+	rm -rf build demo compile_commands.json
+
+-include $(wildcard $(B)/obj/*.d $(B)/bin/*.d $(B)/test/*.d $(B)/bench/*.d $(B)/fuzz/*.d)

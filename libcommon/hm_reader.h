@@ -1,0 +1,62 @@
+/* hm_reader: objects from one file or pipe, in order, without holding them. Layer 2.
+ *
+ * Reads the project's streams, text and binary, and recognises by content: bare tables of points,
+ * LAS 1.0–1.4, ESRI ASCII grids, GMT multisegment lines, SMS .2dm meshes (hybridmesh(5)).
+ *
+ *     struct hm_reader *r;
+ *     struct hm_header h;
+ *     if (hm_reader_open(&r, "-", d)) …
+ *     while (!(err = hm_reader_next(r, &h, d))) {
+ *         if (h.kind == HM_POINTS)
+ *             while (!(err = hm_reader_points(r, rows, 4096, &n, d))) …   // until HM_END
+ *         hm_header_free(&h);
+ *     }                                                                   // until HM_END
+ *     hm_reader_close(r);
+ *
+ * What is left of an object when hm_reader_next is called again is read and checked, but dropped.
+ * Every failure names file and line (text) or file and byte offset (binary).
+ */
+#ifndef HM_READER_H
+#define HM_READER_H
+
+#include "hm_header.h"
+
+struct hm_reader;
+struct hm_mesh;
+
+/* path "-" is standard input. *r is NULL on failure. */
+enum hm_err hm_reader_open(struct hm_reader **r, const char *path, struct hm_diag *d);
+void hm_reader_close(struct hm_reader *r);
+
+/* A count in a header that disagrees with the data becomes an error (it is ignored otherwise). */
+void hm_reader_strict(struct hm_reader *r, bool strict);
+
+/* Go on to the next object and give its header, which the caller frees. HM_END behind the last. An
+ * input without any object is HM_EFORMAT ("empty"). */
+enum hm_err hm_reader_next(struct hm_reader *r, struct hm_header *h, struct hm_diag *d);
+
+/* Up to `max` points: nfields doubles each, x y z first, to rows[]; *n says how many. x and y are
+ * finite, z may be NaN (missing). HM_END, with *n = 0, behind the last point. */
+enum hm_err hm_reader_points(struct hm_reader *r, double *rows, size_t max, size_t *n,
+                             struct hm_diag *d);
+
+/* The next row of a grid: nx nodes, their bands side by side (nfields - 2 doubles a node). */
+enum hm_err hm_reader_row(struct hm_reader *r, double *row, struct hm_diag *d);
+
+/* The next line: its attributes and its vertices. The pointers in *line are the reader's and hold
+ * until its next call. */
+struct hm_line {
+    char *attrs; /* "" when it has none */
+    double *xyz; /* 3 doubles a vertex; z may be NaN */
+    size_t n;    /* vertices */
+    bool closed; /* the last vertex joins the first, which is not repeated */
+};
+enum hm_err hm_reader_line(struct hm_reader *r, struct hm_line *line, struct hm_diag *d);
+
+/* The whole mesh, into an empty *mesh (without its header). */
+enum hm_err hm_reader_mesh(struct hm_reader *r, struct hm_mesh *mesh, struct hm_diag *d);
+
+/* The name that diagnostics use: the path, or "standard input". */
+const char *hm_reader_name(const struct hm_reader *r);
+
+#endif

@@ -1,0 +1,149 @@
+/* hm_tri: Delaunay and constrained Delaunay triangulation. Layer 2, on predicates and threads.
+ *
+ * Exact predicates throughout; cocircular points are triangulated by their lexicographic order, so
+ * the result depends on the points alone, not on their order nor on the number of threads.
+ *
+ * Vertices have the triangulation's own numbers (spatial order), 0 .. hm_tri_vertices()-1;
+ * hm_tri_of_input and hm_tri_input translate. Equal input points become one vertex. Triangles are
+ * counter-clockwise. A directed edge is named e = 3*triangle + i; it starts at corner i and has its
+ * triangle on the left:
+ *
+ *                 apex
+ *                /    \         next(e): dest → apex,   prev(e): apex → org
+ *           org ——e——> dest     twin(e): the same edge seen from the other side
+ *
+ * Beyond each edge of the convex hull lies a ghost triangle, whose apex is HM_TRI_INFINITY; the
+ * hull is walked by twin and next like everything else. Numbers of triangles stay valid until the
+ * triangulation is changed; numbers of vertices for ever.
+ *
+ *     struct hm_tri *t;
+ *     struct hm_diag d = {0};
+ *     if (hm_tri_build(&t, xy, n, 2, 1, &d) == HM_OK) {
+ *         for (int32_t k = 0; k < hm_tri_triangles(t); k++)
+ *             if (hm_tri_is_solid(t, k))
+ *                 use(hm_tri_org(t, 3*k), hm_tri_dest(t, 3*k), hm_tri_apex(t, 3*k));
+ *         hm_tri_free(t);
+ *     }
+ *
+ * Memory: about 75 bytes a point. At most INT32_MAX / 6 points. A function that fails with
+ * HM_ENOMEM leaves the triangulation valid, or (hm_tri_build) none.
+ */
+#ifndef HM_TRI_H
+#define HM_TRI_H
+
+#include "hm_base.h"
+
+struct hm_tri;
+
+enum { HM_TRI_INFINITY = -1, HM_TRI_NONE = -1 };
+
+/* --- construction --- */
+
+/* Delaunay triangulation of n points: point i is xy[i*stride], xy[i*stride + 1]. HM_EGEOM when a
+ * coordinate is not finite (the place is the point's number in the text) or when all points lie on
+ * one line or are fewer than three. */
+enum hm_err hm_tri_build(struct hm_tri **t, const double *xy, size_t n, size_t stride, int threads,
+                         struct hm_diag *d);
+void hm_tri_free(struct hm_tri *t);
+
+/* --- vertices --- */
+
+int32_t hm_tri_vertices(const struct hm_tri *t); /* vertex numbers in use lie below; see is_used */
+bool hm_tri_is_used(const struct hm_tri *t, int32_t v); /* false once removed */
+const double *hm_tri_xy(const struct hm_tri *t, int32_t v);
+int32_t hm_tri_of_input(const struct hm_tri *t, size_t input); /* vertex of an input point */
+int64_t hm_tri_input(const struct hm_tri *t, int32_t v);       /* lowest one at v; -1: added */
+size_t hm_tri_duplicates(const struct hm_tri *t);              /* input points merged into others */
+
+/* --- topology --- */
+
+int32_t hm_tri_triangles(const struct hm_tri *t);          /* triangle numbers lie below this */
+bool hm_tri_is_solid(const struct hm_tri *t, int32_t tri); /* neither ghost nor free slot */
+int32_t hm_tri_org(const struct hm_tri *t, int32_t e);
+int32_t hm_tri_dest(const struct hm_tri *t, int32_t e);
+int32_t hm_tri_apex(const struct hm_tri *t, int32_t e);
+int32_t hm_tri_twin(const struct hm_tri *t, int32_t e);
+int32_t hm_tri_edge_from(const struct hm_tri *t, int32_t v); /* some edge with org v */
+int32_t hm_tri_edge_between(const struct hm_tri *t, int32_t a, int32_t b); /* or HM_TRI_NONE */
+
+static inline int32_t hm_tri_next(int32_t e)
+{
+    return e % 3 == 2 ? e - 2 : e + 1;
+}
+static inline int32_t hm_tri_prev(int32_t e)
+{
+    return e % 3 == 0 ? e + 2 : e - 1;
+}
+
+/* --- constraints --- */
+
+/* What was mended while segments went in. */
+struct hm_tri_mends {
+    int64_t crossings;   /* segments that crossed: a vertex at the (rounded) intersection */
+    int64_t on_segment;  /* vertices that lay on a segment and split it */
+    int64_t overlaps;    /* pieces that were constrained already */
+    int64_t zero_length; /* segments whose ends are one vertex: dropped */
+};
+
+/* A segment between two vertices, with marks: any bits the caller likes, not 0. Pieces that were
+ * constrained already collect the bits of both. */
+struct hm_tri_segment {
+    int32_t a, b;
+    int32_t marks;
+};
+
+/* Put segments in, so that each is a chain of edges, and the triangulation constrained Delaunay.
+ * mends may be NULL and is added to. */
+enum hm_err hm_tri_constrain(struct hm_tri *t, const struct hm_tri_segment *s, size_t n,
+                             struct hm_tri_mends *mends, struct hm_diag *d);
+
+int32_t hm_tri_marks(const struct hm_tri *t, int32_t e);        /* 0: not a constraint */
+void hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks); /* take bits off, from both sides */
+
+/* Regions: a number a triangle, 0 at first. Give `region` to every triangle that can be reached
+ * from `tri` without crossing an edge that has any of the bits `stop`. Reaches ghosts too; from
+ * hm_tri_twin of a hull edge it starts outside. */
+int32_t hm_tri_region(const struct hm_tri *t, int32_t tri);
+void hm_tri_set_region(struct hm_tri *t, int32_t tri, int32_t region);
+enum hm_err hm_tri_flood(struct hm_tri *t, int32_t tri, int32_t stop, int32_t region,
+                         struct hm_diag *d);
+
+/* --- editing: every call keeps it constrained Delaunay --- */
+
+/* Add a vertex. A constrained edge that it lies on exactly is split, both halves keep its marks. A
+ * vertex already there is returned instead. Points beyond the hull extend it. `hint`: a triangle
+ * nearby, or HM_TRI_NONE. New triangles take the region of the old ones around. */
+enum hm_err hm_tri_insert(struct hm_tri *t, double x, double y, int32_t hint, int32_t *v,
+                          struct hm_diag *d);
+
+/* Add a vertex on edge e at x, y, as if it lay on it exactly (midpoints of slanted edges never do):
+ * both halves keep the marks. HM_EGEOM, with nothing changed, when that would fold a triangle. */
+enum hm_err hm_tri_split(struct hm_tri *t, int32_t e, double x, double y, int32_t *v,
+                         struct hm_diag *d);
+
+/* Take out a vertex that is neither on the hull nor on a constraint (HM_EARG otherwise). */
+enum hm_err hm_tri_remove(struct hm_tri *t, int32_t v, struct hm_diag *d);
+
+/* Move such a vertex; it keeps its number. HM_EARG, with nothing changed, when the new place is
+ * beyond the hull, beyond a constraint around it, or taken. */
+enum hm_err hm_tri_move(struct hm_tri *t, int32_t v, double x, double y, struct hm_diag *d);
+
+/* --- location --- */
+
+/* The solid triangle that holds x, y (border included), walking from `hint` (a triangle near it, or
+ * HM_TRI_NONE); HM_TRI_NONE outside the hull. *hint (may be NULL) becomes the last triangle seen.
+ */
+int32_t hm_tri_locate(const struct hm_tri *t, double x, double y, int32_t *hint);
+
+/* The same for n points in any order, fast: sorted along a curve first. */
+enum hm_err hm_tri_locate_all(const struct hm_tri *t, const double *xy, size_t n, size_t stride,
+                              int threads, int32_t *tri, struct hm_diag *d);
+
+/* --- checks, for tests and the cautious --- */
+
+/* Orientation, neighbours, marks agree on both sides; hull convex. HM_EGEOM names the place. */
+enum hm_err hm_tri_check_topology(const struct hm_tri *t, struct hm_diag *d);
+/* Every edge that is no constraint is locally Delaunay, cocircular ties by order included. */
+enum hm_err hm_tri_check_delaunay(const struct hm_tri *t, struct hm_diag *d);
+
+#endif

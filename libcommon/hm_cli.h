@@ -75,12 +75,13 @@ const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0
 size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least one: "-" */
 
 /* --- input --- */
-*The objects of all operands one after the other, of the kinds the program needs;
-others are *dropped with one line said.With -
-    K every object is copied to the output before the first is *given.Checks CRS(equal, in metres)
-        .Exits on failure.The header is the caller's. */ bool hm_cli_next(
-            struct hm_cli *cli, struct hm_header *h); /* false behind the last */
-struct hm_reader *hm_cli_reader(struct hm_cli *cli);  /* of the object just given */
+
+/* The objects of all operands one after the other, of the kinds the program needs; others are
+ * dropped with one line said. With -K every object is copied to the output before the first is
+ * given. Checks CRS (equal, in metres). Exits on failure. The header is the caller's. False behind
+ * the last. */
+bool hm_cli_next(struct hm_cli *cli, struct hm_header *h);
+struct hm_reader *hm_cli_reader(struct hm_cli *cli); /* of the object just given */
 
 /* All objects at once, by kind, in order. */
 struct hm_inputs {

@@ -1,0 +1,307 @@
+#define _GNU_SOURCE
+#include "hm_cli_private.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* --- output --- */
+
+struct hm_writer *hm_cli_writer(struct hm_cli *cli)
+{
+    if (!cli->writer) {
+        struct hm_diag d = {0};
+        bool terminal = !strcmp(cli->output, "-") && isatty(STDOUT_FILENO);
+        if (cli->binary && terminal)
+            hm_cli_die(cli, "a binary stream does not go to a terminal; use -o or a pipe");
+        hm_cli_check(cli, hm_writer_open(&cli->writer, cli->output, hm_cli_format(cli), &d), &d);
+    }
+    return cli->writer;
+}
+
+/* --- --keep: inputs to the output, and to a spool from which the tool then reads them --- */
+
+static enum hm_err copy_points(struct hm_reader *r, const struct hm_header *h,
+                               struct hm_writer *to[2], struct hm_diag *d)
+{
+    enum { BATCH = 4096 };
+    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
+    if (!rows)
+        return hm_fail_memory(d);
+    enum hm_err err;
+    size_t n;
+    while (!(err = hm_reader_points(r, rows, BATCH, &n, d)))
+        for (int k = 0; k < 2 && !err; k++)
+            err = hm_writer_points(to[k], rows, n, d);
+    free(rows);
+    return err;
+}
+
+static enum hm_err copy_rows(struct hm_reader *r, const struct hm_header *h,
+                             struct hm_writer *to[2], struct hm_diag *d)
+{
+    double *row = hm_alloc((size_t)h->lattice.nx * (h->nfields - 2), sizeof *row);
+    if (!row)
+        return hm_fail_memory(d);
+    enum hm_err err;
+    while (!(err = hm_reader_row(r, row, d)))
+        for (int k = 0; k < 2 && !err; k++)
+            err = hm_writer_row(to[k], row, d);
+    free(row);
+    return err;
+}
+
+static enum hm_err copy_lines(struct hm_reader *r, struct hm_writer *to[2], struct hm_diag *d)
+{
+    struct hm_line line;
+    enum hm_err err;
+    while (!(err = hm_reader_line(r, &line, d)))
+        for (int k = 0; k < 2 && !err; k++)
+            err = hm_writer_line(to[k], &line, d);
+    return err;
+}
+
+static enum hm_err copy_mesh(struct hm_reader *r, struct hm_writer *to[2], struct hm_diag *d)
+{
+    struct hm_mesh m = {0};
+    enum hm_err err = hm_reader_mesh(r, &m, d);
+    for (int k = 0; k < 2 && !err; k++)
+        err = hm_writer_mesh(to[k], &m, d);
+    hm_mesh_free(&m);
+    return err;
+}
+
+static enum hm_err copy_object(struct hm_reader *r, const struct hm_header *h,
+                               struct hm_writer *to[2], struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (int k = 0; k < 2 && !err; k++)
+        err = hm_writer_begin(to[k], h, d);
+    if (err)
+        return err;
+    switch (h->kind) {
+    case HM_POINTS:
+        err = copy_points(r, h, to, d);
+        break;
+    case HM_GRID:
+        err = copy_rows(r, h, to, d);
+        break;
+    case HM_LINES:
+        err = copy_lines(r, to, d);
+        break;
+    default:
+        err = copy_mesh(r, to, d);
+        break;
+    }
+    if (err == HM_END)
+        err = HM_OK;
+    for (int k = 0; k < 2 && !err; k++)
+        err = hm_writer_end(to[k], d);
+    return err;
+}
+
+static enum hm_err copy_operand(const char *path, bool strict, struct hm_writer *to[2],
+                                struct hm_diag *d)
+{
+    struct hm_reader *r;
+    enum hm_err err = hm_reader_open(&r, path, d);
+    if (err)
+        return err;
+    hm_reader_strict(r, strict);
+    struct hm_header h;
+    while (!(err = hm_reader_next(r, &h, d))) {
+        err = copy_object(r, &h, to, d);
+        hm_header_free(&h);
+        if (err)
+            break;
+    }
+    hm_reader_close(r);
+    return err == HM_END ? HM_OK : err;
+}
+
+/* Name of a new empty file for the spool, malloc'd. */
+static char *make_spool(struct hm_cli *cli)
+{
+    const char *folder = getenv("TMPDIR");
+    char *path;
+    if (asprintf(&path, "%s/hm-spool-XXXXXX", folder && *folder ? folder : "/tmp") < 0)
+        hm_cli_die(cli, "out of memory");
+    int fd = mkstemp(path);
+    if (fd < 0)
+        hm_cli_die(cli, "%s: %s", path, strerror(errno));
+    close(fd);
+    return path;
+}
+
+static void keep_inputs(struct hm_cli *cli)
+{
+    struct hm_diag d = {0};
+    struct hm_writer *to[2] = {hm_cli_writer(cli), NULL};
+    cli->spool = make_spool(cli);
+    enum hm_err err = hm_writer_open(&to[1], cli->spool, (struct hm_format){.binary = true}, &d);
+    for (size_t k = 0; k < cli->noperands && !err; k++)
+        err = copy_operand(cli->operands[k], cli->strict, to, &d);
+    if (!err)
+        err = hm_writer_close(&to[1], &d);
+    if (err)
+        hm_writer_abandon(to[1]);
+    hm_cli_check(cli, err, &d);
+    cli->operands[0] = cli->spool;
+    cli->noperands = 1;
+}
+
+/* --- input --- */
+
+/* Open the next operand; false behind the last. */
+static bool open_operand(struct hm_cli *cli)
+{
+    if (cli->keep && !cli->spool)
+        keep_inputs(cli);
+    if (cli->opened == cli->noperands)
+        return false;
+    struct hm_diag d = {0};
+    const char *path = cli->operands[cli->opened++];
+    hm_cli_check(cli, hm_reader_open(&cli->reader, path, &d), &d);
+    hm_reader_strict(cli->reader, cli->strict);
+    cli->dropped = 0;
+    return true;
+}
+
+static void close_operand(struct hm_cli *cli)
+{
+    hm_reader_close(cli->reader);
+    cli->reader = NULL;
+}
+
+static void note_header(struct hm_cli *cli, const struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    const char *name = hm_reader_name(cli->reader);
+    enum hm_err err = HM_OK;
+    if (!cli->seen.kind)
+        err = hm_header_init(&cli->seen, h->kind, &d);
+    if (!err)
+        err = hm_header_merge(&cli->seen, h, &d);
+    if (!err && !cli->program->degrees_ok)
+        err = hm_header_need_metres(h, &d);
+    if (err && !d.source[0])
+        snprintf(d.source, sizeof d.source, "%s", name);
+    hm_cli_check(cli, err, &d);
+}
+
+bool hm_cli_next(struct hm_cli *cli, struct hm_header *h)
+{
+    for (;;) {
+        if (!cli->reader && !open_operand(cli))
+            return false;
+        struct hm_diag d = {0};
+        enum hm_err err = hm_reader_next(cli->reader, h, &d);
+        if (err == HM_END) {
+            close_operand(cli);
+            continue;
+        }
+        hm_cli_check(cli, err, &d);
+        if (h->kind & (enum hm_kind)cli->program->needs) {
+            note_header(cli, h);
+            return true;
+        }
+        if (!(cli->dropped & (int)h->kind))
+            hm_cli_say(cli, "%s: %s not used here", hm_reader_name(cli->reader),
+                       hm_kind_name(h->kind));
+        cli->dropped |= (int)h->kind;
+        hm_header_free(h);
+    }
+}
+
+struct hm_reader *hm_cli_reader(struct hm_cli *cli)
+{
+    return cli->reader;
+}
+
+/* --- all inputs at once --- */
+
+/* One more container of `size` bytes, cleared, at the end of *items. */
+static void *append(struct hm_cli *cli, void *items, size_t *n, size_t size)
+{
+    char *old, *grown;
+    memcpy(&old, items, sizeof old);
+    grown = *n < PTRDIFF_MAX / size - 1 ? realloc(old, (*n + 1) * size) : NULL;
+    if (!grown)
+        hm_cli_die(cli, "out of memory");
+    memcpy(items, &grown, sizeof grown);
+    return memset(grown + (*n)++ * size, 0, size);
+}
+
+void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in)
+{
+    *in = (struct hm_inputs){0};
+    struct hm_header h;
+    while (hm_cli_next(cli, &h)) {
+        struct hm_diag d = {0};
+        enum hm_err err = HM_OK;
+        switch (h.kind) {
+        case HM_POINTS:
+            err = hm_points_read(append(cli, &in->points, &in->npoints, sizeof *in->points),
+                                 cli->reader, &h, &d);
+            break;
+        case HM_GRID:
+            err = hm_grid_read(append(cli, &in->grid, &in->ngrids, sizeof *in->grid), cli->reader,
+                               &h, &d);
+            break;
+        case HM_LINES:
+            err = hm_lines_read(append(cli, &in->lines, &in->nlines, sizeof *in->lines),
+                                cli->reader, &h, &d);
+            break;
+        default:
+            err = hm_mesh_read(append(cli, &in->mesh, &in->nmeshes, sizeof *in->mesh), cli->reader,
+                               &h, &d);
+            break;
+        }
+        hm_cli_check(cli, err, &d);
+    }
+}
+
+void hm_inputs_free(struct hm_inputs *in)
+{
+    for (size_t k = 0; k < in->npoints; k++)
+        hm_points_free(&in->points[k]);
+    for (size_t k = 0; k < in->ngrids; k++)
+        hm_grid_free(&in->grid[k]);
+    for (size_t k = 0; k < in->nlines; k++)
+        hm_lines_free(&in->lines[k]);
+    for (size_t k = 0; k < in->nmeshes; k++)
+        hm_mesh_free(&in->mesh[k]);
+    free(in->points);
+    free(in->grid);
+    free(in->lines);
+    free(in->mesh);
+    *in = (struct hm_inputs){0};
+}
+
+/* --- headers of products --- */
+
+void hm_cli_make_header(struct hm_cli *cli, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    enum hm_err err = HM_OK;
+    if (cli->seen.kind)
+        err = hm_header_merge(h, &cli->seen, &d);
+    if (!err)
+        err = hm_header_add_history(h, cli->history, &d);
+    hm_cli_check(cli, err, &d);
+}
+
+void hm_cli_free_streams(struct hm_cli *cli)
+{
+    hm_reader_close(cli->reader);
+    hm_writer_abandon(cli->writer);
+    hm_header_free(&cli->seen);
+    if (cli->spool)
+        unlink(cli->spool);
+    free(cli->spool);
+    cli->reader = NULL;
+    cli->writer = NULL;
+    cli->spool = NULL;
+}

@@ -16,11 +16,10 @@
 double hm_bspline_basis(const double *knots, size_t i, int degree, double u);
 
 /* The degree + 1 uniform basis values that act at parameter u (counted as above), degree 1 .. 3;
- * *first is the control point of w[0] and may be -1 or reach n (the ring). dw (may be NULL) gets
- * the derivatives with respect to u. */
+ * *first is the control point of w[0] and may be -1, the last may be n (the ring). For degree 3 at
+ * u = n-1 exactly the last would be n+1: its weight and derivative are 0 there, leave it out. dw
+ * (may be NULL) gets the derivatives with respect to u. */
 void hm_bspline_weights(int degree, double u, int64_t *first, double w[4], double dw[4]);
-
-enum { HM_BSURF_RING = 1 };
 
 struct hm_bsurf {
     int degree;  /* 1, 2 or 3, in both directions */

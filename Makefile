@@ -35,6 +35,8 @@ UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.
 BENCH     := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
 
+SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch]))
+
 .PHONY: all help deps demo check check-long check-san fuzz bench lint install clean FORCE
 .DELETE_ON_ERROR:
 
@@ -94,6 +96,23 @@ check-long: deps-quiet
 
 check-san:
 	$(Q)$(MAKE) --no-print-directory check SANITIZE=address,undefined
+
+# What a stranger's tools say about the sources: all of it must be silent.
+lint:
+	$(Q)clang-format --dry-run -Werror $(SOURCES)
+	$(Q)cppcheck --quiet --std=c11 --language=c --error-exitcode=1 --inline-suppr \
+	    --enable=warning,portability --suppress=internalAstError -Ilibcommon \
+	    $(filter-out %.cpp,$(filter %.c,$(SOURCES)))
+	$(Q)$(MAKE) --no-print-directory B=build/lint CFLAGS='-O2 -Werror' all $(patsubst $(B)/%,build/lint/%,$(GEN) $(UNIT))
+	$(Q)mandoc -T lint -W warning $(wildcard man/*.[157])
+	$(Q)for f in tests/*.t tests/long/*.t tests/run tests/deps tests/demo .ci/run; do \
+	    [ ! -e $$f ] || bash -n $$f || exit 1; done
+
+compile_commands.json: FORCE
+	$(Q){ echo '['; for f in $(filter %.c,$(SOURCES)); do \
+	    printf '%s{"directory":"%s","file":"%s","command":"%s -c %s"}' "$$comma" '$(CURDIR)' $$f \
+	        '$(CC) $(filter-out -MMD -MP,$(HM_CFLAGS)) -Itests/unit $(CAIRO_CFLAGS)' $$f; \
+	    comma=','; echo; done; echo ']'; } >$@
 
 deps:
 	$(Q)tests/deps install

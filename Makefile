@@ -66,18 +66,20 @@ $(LIB): $(LIB_OBJ)
 	$(if $(Q),@echo "  AR      $@")
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
+# A program too long for one file has its other files in a folder of its name.
+.SECONDEXPANSION:
 $(B)/bin/hmdraw: EXTRA_CFLAGS = $(CAIRO_CFLAGS)
 $(B)/bin/hmdraw: EXTRA_LIBS = $(CAIRO_LIBS)
-$(B)/bin/%: tools/%.c $(LIB)
+$(B)/bin/%: tools/%.c $$(wildcard tools/$$*/*.[ch]) $(LIB)
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "  LD      $@")
-	$(Q)$(CC) $(HM_CFLAGS) $(EXTRA_CFLAGS) -o $@ $< $(LIB) $(HM_LDFLAGS) $(EXTRA_LIBS) -lm
+	$(Q)$(CC) $(HM_CFLAGS) $(EXTRA_CFLAGS) -o $@ $(filter %.c,$^) $(LIB) $(HM_LDFLAGS) $(EXTRA_LIBS) -lm
 
 define test_program
-$(B)/test/%: $(1)/%.c $(LIB)
+$(B)/test/%: $(1)/%.c $$$$(wildcard $(1)/$$$$*/*.[ch]) $(LIB)
 	@mkdir -p $$(@D)
 	$$(if $$(Q),@echo "  LD      $$@")
-	$$(Q)$$(CC) $$(HM_CFLAGS) -Itests/unit -o $$@ $$< $$(LIB) $$(HM_LDFLAGS) -lm
+	$$(Q)$$(CC) $$(HM_CFLAGS) -Itests/unit -o $$@ $$(filter %.c,$$^) $$(LIB) $$(HM_LDFLAGS) -lm
 endef
 $(eval $(call test_program,tests/unit))
 $(eval $(call test_program,tests/gen))

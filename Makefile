@@ -35,7 +35,7 @@ UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.
 BENCH     := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
 FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
 
-SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch]))
+SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
 
 .PHONY: all help deps demo check check-long check-san fuzz bench lint install clean FORCE
 .DELETE_ON_ERROR:

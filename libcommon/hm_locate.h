@@ -1,12 +1,13 @@
-/* hm_locate: which element of a mesh holds a point, and the mesh's height there. Layer 4.
+/* hm_locate: which element of a mesh holds a point. Layer 5, on element measures and box trees.
  *
  * Meshes of triangles and convex quadrilaterals, of any number of pieces, with holes; also invalid
  * ones (overlaps: the lowest element number wins). Read-only queries: threads may share an index.
+ * The height there is hm_elem_height.
  */
 #ifndef HM_LOCATE_H
 #define HM_LOCATE_H
 
-#include "hm_data.h"
+#include "hm_elem.h"
 
 struct hm_locate;
 
@@ -17,8 +18,7 @@ void hm_locate_free(struct hm_locate *x);
 /* The element with (px, py) inside or on its border (exactly), or -1. */
 int64_t hm_locate_element(const struct hm_locate *x, double px, double py);
 
-/* Height of an element at (px, py): linear in triangles, bilinear (isoparametric) in
- * quadrilaterals. */
-double hm_elem_height(const struct hm_mesh *mesh, const struct hm_elem *e, double px, double py);
+/* The elements' boxes, for other queries; belongs to the index. */
+const struct hm_boxtree *hm_locate_boxes(const struct hm_locate *x);
 
 #endif

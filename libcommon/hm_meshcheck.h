@@ -1,32 +1,9 @@
-/* hm_meshcheck: is a mesh one that solvers accept? Layer 4. And the edges of a mesh, on which the
- * check, the seams and the drawings build.
+/* hm_meshcheck: is a mesh one that solvers accept? Layer 5, on edges, element measures, box trees.
  */
 #ifndef HM_MESHCHECK_H
 #define HM_MESHCHECK_H
 
-#include "hm_data.h"
-
-/* An edge of a mesh: its nodes as the left element runs through them, and the elements beside. */
-struct hm_mesh_edge {
-    int32_t a, b;
-    int32_t left, right; /* element numbers; right is -1 on the boundary */
-};
-
-/* All edges, each once, sorted by (min node, max node); malloc'd. An edge that is used more than
- * twice or twice in one direction appears once a further use, right = -2. */
-enum hm_err hm_mesh_edges(const struct hm_mesh *m, struct hm_mesh_edge **edges, size_t *n,
-                          struct hm_diag *d);
-
-/* Boundary loops: node numbers, loops one after the other, outer ones counter-clockwise, islands
- * clockwise (the mesh on the left); start[k] .. start[k+1] is loop k, nloops + 1 starts. */
-struct hm_mesh_loops {
-    int32_t *node;
-    size_t *start;
-    size_t nloops;
-};
-enum hm_err hm_mesh_boundary(const struct hm_mesh *m, struct hm_mesh_loops *loops,
-                             struct hm_diag *d);
-void hm_mesh_loops_free(struct hm_mesh_loops *loops);
+#include "hm_meshedges.h"
 
 enum hm_mesh_fault {
     HM_FAULT_AREA,       /* zero or clockwise */
@@ -42,18 +19,27 @@ enum hm_mesh_fault {
     HM_FAULTS
 };
 
+/* Of pieces that cover each other completely there may be n² pairs: counting overlaps ends here. */
+enum { HM_MESHCHECK_MOST_OVERLAPS = 10000 };
+
 struct hm_meshcheck {
     int64_t count[HM_FAULTS];
     double place[HM_FAULTS][2]; /* of the first of each */
-    int64_t components;
+    int64_t components;         /* pieces that hang together by edges; count holds one less */
 };
 
-/* Find all faults. HM_OK means that it could be checked, not that there are none. Exact: no
- * tolerance. */
+/* Find all faults. HM_OK means that it could be checked, not that there are none. Exact, but for
+ * one thing: a boundary node off a boundary edge by no more than the last bits of the coordinates
+ * is a hanging node too, since the midpoint of a slanted edge never lies on it exactly. Overlaps
+ * are looked for among elements that are neither clockwise nor concave themselves. */
 enum hm_err hm_meshcheck_run(const struct hm_mesh *m, struct hm_meshcheck *c, struct hm_diag *d);
 
-/* "negative or zero area", … */
+/* "element with negative or zero area", … */
 const char *hm_mesh_fault_name(enum hm_mesh_fault fault);
 bool hm_meshcheck_is_valid(const struct hm_meshcheck *c, bool allow_components);
+
+/* HM_EGEOM naming the first fault, in the order of the enum, its count and place; HM_OK without. */
+enum hm_err hm_meshcheck_verdict(const struct hm_meshcheck *c, bool allow_components,
+                                 struct hm_diag *d);
 
 #endif

@@ -1,0 +1,99 @@
+#!/bin/sh
+# Every tool against bad input: it says what and where, exits 2, and writes nothing that looks whole.
+. "${0%/*}/tap.sh"
+
+"$TESTS/small_chain" . >chain.log 2>&1 || { sed 's/^/# /' chain.log; report 1 "small chain"; }
+
+# refuses NAME PATTERN COMMAND …: exit 2, a message like PATTERN, no end mark in the output
+refuses() {
+    name=$1 pattern=$2
+    shift 2
+    "$@" >refused.out 2>refused.err
+    status=$?
+    [ $status -eq 2 ] && grep -Eq -- "$pattern" refused.err && ! tail -n 1 refused.out | grep -q '^#end'
+    good=$?
+    report $good "$name"
+    [ $good -eq 0 ] || { echo "# status $status, wanted 2 and /$pattern/"; sed 's/^/# /' refused.err | head -5; }
+}
+
+# The good operands of a tool; @ stands for the input that is spoilt.
+operands() {
+    case $1 in
+    bsgrid) echo "-d 4 @" ;;
+    slope | breaklines | stitch | hmconv | hmdraw) echo "@" ;;
+    bsmesh) echo "lines.txt @ survey.xyz" ;;
+    trimesh) echo "-l 6 -L 20 lines.txt @" ;;
+    quality) echo "@ survey.xyz" ;;
+    esac
+}
+
+# What of the chain a tool reads there.
+good_input() {
+    case $1 in
+    bsgrid | trimesh) echo survey.hm ;;
+    slope) echo dem.hm ;;
+    breaklines) echo slope.hm ;;
+    bsmesh | hmdraw) echo breaklines.hm ;;
+    *) echo hybrid.hm ;;
+    esac
+}
+
+run() { # TOOL INPUT: the tool on its good operands with INPUT among them
+    "$1" $(operands "$1" | sed "s|@|$2|")
+}
+
+hmconv -t text survey.xyz >survey.hm
+: >empty
+printf 'one point\n' >words
+printf '1 2 3\n' >one.xyz
+printf '1 1 0\n2 2 0\n3 3 0\n4 4 0\n' >line.xyz
+printf '1 1 0\n1 1 0\n1 1 0\n1 1 0\n' >equal.xyz
+head -c 300 /dev/urandom | tr '\000-\010' x >noise
+
+for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw; do
+    command -v $tool >/dev/null || { skip "$tool is not built"; continue; }
+    good=$(good_input $tool)
+    size=$(wc -c <"$good")
+    hmconv -t binary "$good" >good.bin
+    ok "$tool: good input" run $tool "$good"
+
+    refuses "$tool: empty input" "empty" run $tool empty
+    refuses "$tool: missing file" "no_such_file" run $tool no_such_file
+    head -c $((size * 6 / 10)) "$good" >cut
+    refuses "$tool: truncated text" "cut" run $tool cut
+    sed '$d' "$good" >cut
+    refuses "$tool: no end mark" "cut.*end" run $tool cut
+    head -c $(($(wc -c <good.bin) * 6 / 10)) good.bin >cut
+    refuses "$tool: truncated binary" "cut" run $tool cut
+
+    # line 30 or so of the data: its first number becomes a word, then nan
+    n=$(($(grep -n '^#data' "$good" | cut -d: -f1) + 30))
+    awk -v n=$n 'NR == n && !/^[>#]/ { f = /^[a-z]/ ? 2 : 1; $f = "word" } { print }' "$good" >spoilt
+    cmp -s spoilt "$good" && { n=$((n + 1)); awk -v n=$n 'NR == n { $1 = "word" } { print }' "$good" >spoilt; }
+    refuses "$tool: a word for a number" "spoilt:$n:" run $tool spoilt
+    sed "${n}s/word/nan/" spoilt >nan && mv nan spoilt
+    refuses "$tool: nan for a coordinate" "spoilt:$n:" run $tool spoilt
+    sed "${n}s/nan/inf/" spoilt >inf && mv inf spoilt
+    refuses "$tool: inf for a coordinate" "spoilt:$n:" run $tool spoilt
+    sed '1s/#hm 1/#hm 2/' "$good" >newer
+    refuses "$tool: a newer version" "newer:1:.*version" run $tool newer
+    refuses "$tool: noise" "noise" run $tool noise
+
+    ok "$tool: a full disk" sh -c "$tool $(operands $tool | sed "s|@|$good|") >/dev/full 2>err
+        [ \$? -eq 2 ] && grep -Eq 'space|full' err"
+    refuses "$tool: an unknown option" "--help" $tool --no-such-option
+done
+
+for bad in one line equal; do
+    for tool in bsgrid "trimesh -l 1 -L 3"; do
+        refuses "$tool: $bad.xyz" "point|line" $tool $bad.xyz
+    done
+done
+refuses "slope takes no points" "grid" slope survey.xyz
+refuses "bsgrid takes no mesh" "points" bsgrid hybrid.hm
+refuses "breaklines wants a slope" "slope" breaklines dem.hm
+refuses "bsmesh wants surfaces" "surface" bsmesh breaklines.hm survey.xyz
+refuses "stitch wants meshes" "mesh" stitch survey.xyz
+refuses "quality wants a mesh" "mesh" quality survey.xyz
+refuses "quality wants points" "points" quality hybrid.hm
+done_testing

@@ -84,9 +84,12 @@ endef
 $(eval $(call test_program,tests/unit))
 $(eval $(call test_program,tests/gen))
 
+# A shell exports LINES, the height of its terminal: only one given to make is meant.
+DEMO_LINES := $(if $(filter command,$(origin LINES)),$(LINES))
+
 demo: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN)
-	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(LINES)' tests/demo
+	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(DEMO_LINES)' D='$(D)' tests/demo
 
 check: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
@@ -101,6 +104,7 @@ check-san:
 
 # What a stranger's tools say about the sources: all of it must be silent.
 lint:
+	$(Q)tests/deps lint quiet
 	$(Q)clang-format --dry-run -Werror $(SOURCES)
 	$(Q)cppcheck --quiet --std=c11 --language=c --error-exitcode=1 --inline-suppr \
 	    --enable=warning,portability --suppress=internalAstError -Ilibcommon \
@@ -117,10 +121,10 @@ compile_commands.json: FORCE
 	    comma=','; echo; done; echo ']'; } >$@
 
 deps:
-	$(Q)tests/deps install
+	$(Q)tests/deps build
 .PHONY: deps-quiet
 deps-quiet:
-	$(Q)tests/deps check
+	$(Q)tests/deps build quiet
 
 install: all
 	$(Q)mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 \

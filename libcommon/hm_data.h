@@ -8,6 +8,7 @@
 #define HM_DATA_H
 
 #include "hm_header.h"
+#include "hm_mesh.h"
 #include "hm_reader.h"
 #include "hm_writer.h"
 
@@ -49,37 +50,9 @@ enum hm_err hm_lines_write(const struct hm_lines *l, struct hm_writer *w, struct
 enum hm_err hm_lines_append(struct hm_lines *l, const struct hm_line *line, struct hm_diag *d);
 void hm_lines_free(struct hm_lines *l);
 
-/* Mesh. Elements are counter-clockwise; node[3] is -1 in a triangle. */
-enum hm_node_flag {
-    HM_NODE_BOUNDARY = 1,  /* on the boundary of the mesh */
-    HM_NODE_BREAKLINE = 2, /* on a breakline */
-    HM_NODE_FIXED = 4      /* must not be moved */
-};
-struct hm_node {
-    double x, y, z; /* metres; z may be NaN only before heights are known */
-    int32_t flags;  /* hm_node_flag bits */
-    int32_t owner;  /* 0, or the number of the regular mesh that the node belongs to */
-};
-struct hm_elem {
-    int32_t node[4];
-    int32_t region; /* material number, 0 or more */
-};
-struct hm_mesh {
-    struct hm_header header; /* keys name, role: regular, irregular or hybrid */
-    struct hm_node *node;
-    size_t nnodes, node_cap; /* at most INT32_MAX */
-    struct hm_elem *elem;
-    size_t nelems, elem_cap;
-};
-static inline int hm_elem_corners(const struct hm_elem *e)
-{
-    return e->node[3] < 0 ? 3 : 4;
-}
+/* Mesh: see hm_mesh.h. */
 enum hm_err hm_mesh_read(struct hm_mesh *m, struct hm_reader *r, struct hm_header *h,
                          struct hm_diag *d);
 enum hm_err hm_mesh_write(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
-enum hm_err hm_mesh_add_node(struct hm_mesh *m, struct hm_node node, struct hm_diag *d);
-enum hm_err hm_mesh_add_elem(struct hm_mesh *m, struct hm_elem elem, struct hm_diag *d);
-void hm_mesh_free(struct hm_mesh *m);
 
 #endif

@@ -55,10 +55,16 @@ const char *hm_header_get(const struct hm_header *h, const char *name);
 enum hm_err hm_header_set(struct hm_header *h, const char *name, const char *value,
                           struct hm_diag *d);
 
+/* Append a key, even one that is there already: `#string` may stand for several boundary strings.
+ */
+enum hm_err hm_header_add(struct hm_header *h, const char *name, const char *value,
+                          struct hm_diag *d);
+
 /* Column of a field by name, from 0 (x); -1 when there is none. Band = column - 2. */
 int hm_header_field(const struct hm_header *h, const char *name);
 
-/* Append a column with its unit (NULL: "1"). Keeps `#units` in step with `#fields`. */
+/* Append a column with its unit (NULL: "1"). Keeps `#units` in step with `#fields`; columns without
+ * a unit so far are taken for metres (x, y, z) or numbers. */
 enum hm_err hm_header_add_field(struct hm_header *h, const char *name, const char *unit,
                                 struct hm_diag *d);
 
@@ -66,8 +72,8 @@ enum hm_err hm_header_add_field(struct hm_header *h, const char *name, const cha
 enum hm_err hm_header_add_history(struct hm_header *h, const char *line, struct hm_diag *d);
 
 /* Bring what `from` says into h, as a program with several inputs does: history lines that h lacks,
- * keys that h lacks (but never name, role and fields). HM_EFORMAT when both have a crs and they
- * differ. */
+ * keys that h lacks (but never what holds for one object alone: name, role, string; units go by the
+ * names of the fields). HM_EFORMAT when both have a crs and they differ. */
 enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, struct hm_diag *d);
 
 /* HM_EFORMAT when the crs says longitude and latitude, where metres are needed; names georef. */

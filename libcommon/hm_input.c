@@ -1,0 +1,145 @@
+#include "hm_input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { BUFFER = 1 << 20 };
+#define LONGEST_LINE ((size_t)1 << 30)
+
+enum hm_err hm_input_open(struct hm_input *in, const char *path, struct hm_diag *d)
+{
+    bool standard = !strcmp(path, "-");
+    *in = (struct hm_input){.fd = STDIN_FILENO};
+    in->name = strdup(standard ? "standard input" : path);
+    in->buf = hm_alloc(BUFFER, 1);
+    in->cap = BUFFER;
+    if (!in->name || !in->buf) {
+        hm_input_close(in);
+        return hm_fail_memory(d);
+    }
+    if (!standard)
+        in->fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (in->fd < 0) {
+        enum hm_err err = hm_fail_line(d, HM_EIO, path, 0, "cannot open: %s", strerror(errno));
+        hm_input_close(in);
+        return err;
+    }
+    return HM_OK;
+}
+
+void hm_input_close(struct hm_input *in)
+{
+    if (in->fd > STDIN_FILENO)
+        close(in->fd);
+    free(in->name);
+    free(in->buf);
+    *in = (struct hm_input){.fd = -1};
+}
+
+/* Room for `need` unread bytes, with the line last given kept when it is still unfinished. */
+static enum hm_err make_room(struct hm_input *in, size_t need, struct hm_diag *d)
+{
+    if (in->pos > 0) {
+        memmove(in->buf, in->buf + in->pos, in->fill - in->pos);
+        in->offset += (int64_t)in->pos;
+        in->fill -= in->pos;
+        in->pos = 0;
+    }
+    return hm_grow(&in->buf, &in->cap, need, 1) ? HM_OK : hm_fail_memory(d);
+}
+
+enum hm_err hm_input_fill(struct hm_input *in, size_t need, struct hm_diag *d)
+{
+    if (hm_input_has(in) >= need || in->eof)
+        return HM_OK;
+    enum hm_err err = make_room(in, need, d);
+    if (err)
+        return err;
+    while (in->fill < need && !in->eof) {
+        ssize_t n = read(in->fd, in->buf + in->fill, in->cap - in->fill);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return hm_fail_line(d, HM_EIO, in->name, 0, "cannot read: %s", strerror(errno));
+        in->fill += (size_t)n;
+        in->eof = n == 0;
+    }
+    return HM_OK;
+}
+
+enum hm_err hm_input_read(struct hm_input *in, void *bytes, size_t n, struct hm_diag *d)
+{
+    for (char *to = bytes; n > 0;) {
+        size_t part = n < BUFFER ? n : BUFFER;
+        enum hm_err err = hm_input_fill(in, part, d);
+        if (err)
+            return err;
+        if (hm_input_has(in) < part) {
+            in->pos = in->fill;
+            return HM_END;
+        }
+        if (to) {
+            memcpy(to, hm_input_at(in), part);
+            to += part;
+        }
+        in->pos += part;
+        n -= part;
+    }
+    return HM_OK;
+}
+
+enum hm_err hm_input_long_line(struct hm_input *in, const char **s, const char **end,
+                               struct hm_diag *d)
+{
+    const char *lf = NULL;
+    while (!lf && !in->eof) {
+        size_t seen = hm_input_has(in);
+        if (seen >= LONGEST_LINE) {
+            in->line++;
+            return hm_input_fail(in, HM_EFORMAT, d, "a line of more than 1 GB");
+        }
+        enum hm_err err = hm_input_fill(in, seen + 1, d);
+        if (err)
+            return err;
+        lf = memchr(hm_input_at(in) + seen, '\n', hm_input_has(in) - seen);
+    }
+    if (lf)
+        return hm_input_line(in, s, end, d);
+    if (in->pos == in->fill)
+        return HM_END;
+    in->last = in->pos;
+    in->line++;
+    *s = hm_input_at(in);
+    in->pos = in->fill;
+    in->unfinished = true;
+    *end = in->buf + in->fill;
+    if ((*end)[-1] == '\r')
+        --*end;
+    return HM_OK;
+}
+
+enum hm_err hm_input_fail(const struct hm_input *in, enum hm_err err, struct hm_diag *d,
+                          const char *format, ...)
+{
+    char text[HM_DIAG_TEXT];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return hm_fail_line(d, err, in->name, in->line, "%s", text);
+}
+
+enum hm_err hm_input_fail_byte(const struct hm_input *in, enum hm_err err, int64_t at,
+                               struct hm_diag *d, const char *format, ...)
+{
+    char text[HM_DIAG_TEXT];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return hm_fail_line(d, err, in->name, 0, "%s (byte %lld)", text, (long long)at);
+}

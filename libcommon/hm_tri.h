@@ -104,7 +104,7 @@ void hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks); /* take bits off
  * from `tri` without crossing an edge that has any of the bits `stop`. Reaches ghosts too; from
  * hm_tri_twin of a hull edge it starts outside. */
 int32_t hm_tri_region(const struct hm_tri *t, int32_t tri);
-void hm_tri_set_region(struct hm_tri *t, int32_t tri, int32_t region);
+enum hm_err hm_tri_set_region(struct hm_tri *t, int32_t tri, int32_t region); /* or HM_ENOMEM */
 enum hm_err hm_tri_flood(struct hm_tri *t, int32_t tri, int32_t stop, int32_t region,
                          struct hm_diag *d);
 

@@ -1,5 +1,5 @@
-/* tap: the few lines that a unit test needs. Each test program is one C file that includes this once,
- * calls ok() for every claim and ends with `return done();`. Output is TAP. */
+/* tap: the few lines that a unit test needs. Each test program is one C file that includes this
+ * once, calls ok() for every claim and ends with `return done();`. Output is TAP. */
 #ifndef TAP_H
 #define TAP_H
 
@@ -23,7 +23,8 @@ __attribute__((format(printf, 2, 3), unused)) static bool ok(bool pass, const ch
 }
 
 /* |got - want| <= tolerance; says both when it fails. */
-__attribute__((unused)) static bool near(double got, double want, double tolerance, const char *what)
+__attribute__((unused)) static bool near(double got, double want, double tolerance,
+                                         const char *what)
 {
     bool pass = fabs(got - want) <= tolerance;
     ok(pass, "%s", what);

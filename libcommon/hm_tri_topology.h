@@ -1,0 +1,109 @@
+/* hm_tri_topology: how hm_tri keeps its triangles. Internal to the hm_tri_*.c files.
+ *
+ * A triangle is three half-edges in a row, eight bytes each. What only some need (marks, regions,
+ * an edge at each vertex) is in arrays of its own, made when first needed.
+ *
+ * The layers, each on those before it: topology (this), build (divide and conquer), locate, edit
+ * (insert, split, remove, move), constrain; check stands beside them.
+ */
+#ifndef HM_TRI_TOPOLOGY_H
+#define HM_TRI_TOPOLOGY_H
+
+#include "hm_pred_inline.h"
+#include "hm_tri.h"
+
+enum { HM_TRI_FREE = -2 }; /* org of the first half-edge of a free slot */
+
+struct hm_tri_half {
+    int32_t org, twin; /* in a free slot the first twin is the next free slot, or HM_TRI_NONE */
+};
+
+struct hm_tri {
+    struct hm_tri_half *half; /* 3 * triangles; the first three arrays share cap_triangles */
+    int32_t *marks;           /* 3 * triangles, or NULL: all 0 */
+    int32_t *region;          /* triangles, or NULL: all 0 */
+    int32_t triangles, free;  /* slots in use or free; first free slot */
+    size_t cap_triangles;
+
+    double *xy;     /* 2 * vertices; these three share cap_vertices */
+    int32_t *edge;  /* an edge from each vertex; HM_TRI_NONE: removed */
+    int32_t *input; /* lowest input point at each vertex, HM_TRI_NONE: added */
+    int32_t vertices;
+    size_t cap_vertices;
+
+    int32_t *of_input; /* vertex of each of n_input points */
+    size_t n_input, duplicates;
+
+    int32_t *stack; /* scratch */
+    size_t cap_stack;
+};
+
+static inline int32_t hm_tri_apex_of(const struct hm_tri *t, int32_t e)
+{
+    return t->half[hm_tri_prev(e)].org;
+}
+
+static inline int32_t hm_tri_dest_of(const struct hm_tri *t, int32_t e)
+{
+    return t->half[hm_tri_next(e)].org;
+}
+
+static inline void hm_tri_pair(struct hm_tri_half *half, int32_t e, int32_t f)
+{
+    half[e].twin = f;
+    half[f].twin = e;
+}
+
+static inline const double *hm_tri_at(const struct hm_tri *t, int32_t v)
+{
+    return t->xy + 2 * (size_t)v;
+}
+
+static inline bool hm_tri_is_ghost(const struct hm_tri *t, int32_t tri)
+{
+    const struct hm_tri_half *h = t->half + 3 * (size_t)tri;
+    return h[0].org == HM_TRI_INFINITY || h[1].org == HM_TRI_INFINITY ||
+           h[2].org == HM_TRI_INFINITY;
+}
+
+/* The next edge from the same vertex, counter-clockwise. */
+static inline int32_t hm_tri_turn(const struct hm_tri *t, int32_t e)
+{
+    return t->half[hm_tri_prev(e)].twin;
+}
+
+static inline int32_t hm_tri_marks_of(const struct hm_tri *t, int32_t e)
+{
+    return t->marks ? t->marks[e] : 0;
+}
+
+/* Only when there are marks. */
+static inline void hm_tri_set_marks(struct hm_tri *t, int32_t e, int32_t marks)
+{
+    t->marks[e] = marks;
+    t->marks[t->half[e].twin] = marks;
+}
+
+/* Make the arrays that are made late, or room for so many more. HM_ENOMEM changes nothing. */
+enum hm_err hm_tri_need_marks(struct hm_tri *t, struct hm_diag *d);
+enum hm_err hm_tri_need_regions(struct hm_tri *t, struct hm_diag *d);
+enum hm_err hm_tri_need_triangles(struct hm_tri *t, int32_t more, struct hm_diag *d);
+enum hm_err hm_tri_need_vertices(struct hm_tri *t, int32_t more, struct hm_diag *d);
+
+/* Slots, once there is room. A taken one holds nothing of use; of one given back marks and region
+ * are cleared. */
+int32_t hm_tri_take_triangle(struct hm_tri *t);
+void hm_tri_give_triangle(struct hm_tri *t, int32_t tri);
+int32_t hm_tri_take_vertex(struct hm_tri *t, double x, double y);
+
+/* hm_tri_conquer.c: triangulate n >= 2 points, all different and in the order of hm_order with
+ * their keys (which are changed), into half[0 .. 3(2n-2)). Returns the finite half-edge of a ghost.
+ */
+int32_t hm_tri_conquer(struct hm_tri_half *half, const double *xy, int32_t n, uint32_t *key,
+                       int threads);
+
+/* hm_tri_locate.c: the solid triangle that holds p, or a ghost whose hull edge has p beyond it. */
+int32_t hm_tri_walk(const struct hm_tri *t, const double *p, int32_t tri);  /* tri: solid */
+int32_t hm_tri_find(const struct hm_tri *t, const double *p, int32_t hint); /* hint may be none */
+
+#endif

@@ -418,6 +418,11 @@ struct hm_format hm_cli_format(const struct hm_cli *cli)
     return (struct hm_format){.binary = cli->binary, .decimals = cli->decimals};
 }
 
+const char *hm_cli_output(const struct hm_cli *cli)
+{
+    return cli->output;
+}
+
 const char *hm_cli_history(const struct hm_cli *cli)
 {
     return cli->history;

@@ -71,6 +71,7 @@ int hm_cli_finish(struct hm_cli *cli);
 int hm_cli_threads(const struct hm_cli *cli);                       /* -j, default all cores */
 bool hm_cli_verbose(const struct hm_cli *cli);                      /* -v */
 struct hm_format hm_cli_format(const struct hm_cli *cli);           /* -b, -p */
+const char *hm_cli_output(const struct hm_cli *cli);                /* -o, or "-" */
 const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0.1 -d 5" */
 size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least one: "-" */
 

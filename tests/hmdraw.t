@@ -1,0 +1,194 @@
+#!/bin/sh
+# hmdraw: every kind in every format, places on the page, and what cannot be drawn.
+. "${0%/*}/tap.sh"
+command -v hmdraw >/dev/null || {
+    skip "hmdraw is not built (it needs cairo)"
+    done_testing
+}
+
+# --- inputs: a 10 m square with a slope, points, lines of all roles, a small hybrid mesh ---
+{
+    printf 'ncols 11\nnrows 11\nxllcorner -0.5\nyllcorner -0.5\ncellsize 1\nnodata_value -9999\n'
+    awk 'BEGIN { for (y = 10; y >= 0; y--) for (x = 0; x <= 10; x++)
+        printf "%s%s", (x > 8 && y > 8 ? -9999 : 0.3 * x + 0.05 * y * y), (x < 10 ? " " : "\n") }'
+} >dem.asc
+awk 'BEGIN { for (i = 0; i < 200; i++) printf "%.2f %.2f %.2f\n", i % 17 / 1.7, i % 13 / 1.3, i / 50 }' >points.xyz
+cat >lines.txt <<'END'
+> limit=8
+1 5 0
+5 5.5 0
+9 5 0
+> surface=main side=left
+1 8 0
+9 8 0
+> surface=main side=right
+1 2 0
+9 2 0
+> face=main closed=1
+3 3 0
+7 3 0
+7 7 0
+> boundary=1 closed=1
+0.5 0.5 0
+9.5 0.5 0
+9.5 9.5 0
+0.5 9.5 0
+> string=inflow
+1 2 0
+1 8 0
+> hole=1 closed=1
+4 4 0
+5 4 0
+5 5 0
+END
+cat >mesh.hm <<'END'
+#hm 1 mesh text
+#name hybrid
+#role hybrid
+#owners main
+#data
+v 1 1 0 1 1
+v 5 1 1 1 1
+v 5 9 2 1 1
+v 1 9 1 1 1
+v 9 1 2 1 0
+v 9 9 3 1 0
+q 0 1 2 3 1
+t 1 4 2 0
+t 4 5 2 0
+#end
+END
+cat >residuals.hm <<'END'
+#hm 1 points text
+#fields x y z residual
+#data
+1 1 0 0.05
+2 5 0 -0.2
+3 3 0 0.5
+4 4 0 nan
+#end
+END
+cat >slope.hm <<'END'
+#hm 1 grid text
+#size 2 2
+#origin 0 0
+#step 1 1
+#fields x y z slope
+#data
+0 0 0 1
+1 0 0 2
+0 1 0 3
+1 1 0 nan
+#end
+END
+
+# --- formats ---
+magic() { head -c 4 "$1" | od -An -c | tr -d ' \n'; }
+ok "PNG of everything" hmdraw -o all.png -T "All kinds" dem.asc points.xyz lines.txt mesh.hm
+[ "$(magic all.png)" = '211PNG' ]
+report $? "it is a PNG"
+ok "SVG by its suffix" hmdraw -o all.svg -T "All <kinds> & more" dem.asc points.xyz lines.txt mesh.hm
+if command -v xmllint >/dev/null; then
+    ok "the SVG is well formed" xmllint --noout --huge all.svg
+else
+    skip "no xmllint"
+fi
+ok "PDF by its suffix" hmdraw -o all.pdf dem.asc points.xyz lines.txt mesh.hm
+[ "$(magic all.pdf)" = '%PDF' ]
+report $? "it is a PDF"
+hmdraw -t svg mesh.hm >typed.svg
+ok "format by option" grep -q '<svg' typed.svg
+
+# --- equal bytes ---
+for format in png svg pdf; do
+    hmdraw -t $format dem.asc points.xyz lines.txt mesh.hm >once.$format
+    hmdraw -t $format dem.asc points.xyz lines.txt mesh.hm >twice.$format
+    same "the same picture twice: $format" once.$format twice.$format
+done
+hmdraw <dem.asc >stdin.png
+hmdraw dem.asc >operand.png
+same "standard input" stdin.png operand.png
+
+# --- every kind alone ---
+for file in dem.asc points.xyz residuals.hm lines.txt mesh.hm; do
+    ok "alone: $file" hmdraw -o one.png $file
+done
+for fill in region wire z quality; do
+    ok "mesh filled by $fill" hmdraw -f $fill -o $fill.png mesh.hm
+done
+! cmp -s region.png quality.png
+report $? "fills differ"
+ok "another band" hmdraw -B slope -o band.png slope.hm
+ok "one point" sh -c 'echo 545000 5972000 3 | hmdraw >one_point.png'
+ok "points all on a line" sh -c 'seq 9 | awk "{ print \$1, 7, 1 }" | hmdraw >on_line.png'
+ok "a point without height" sh -c 'echo 5 6 nan | hmdraw >no_height.png'
+
+# --- places ---
+size() { od -An -j16 -N8 -t u4 --endian=big "$1" | tr -s ' ' | sed 's/^ //'; }
+hmdraw -P -s 200 -R 0/10/0/5 -o plain.png mesh.hm
+true_that "size of a plain map" "\"$(size plain.png)\" == \"200 100\""
+hmdraw -s 800 -R 0/10/0/10 -o framed.png mesh.hm
+width=$(size framed.png | cut -d ' ' -f 1) height=$(size framed.png | cut -d ' ' -f 2)
+true_that "the picture is as large as asked" "$width == 800 && $height < 800 && $height > 400"
+# 10 m on 100 units: node (1, 1) is at 10, 90
+hmdraw -P -s 100 -R 0/10/0/10 -t svg mesh.hm >places.svg
+ok "a quadrilateral where it belongs" grep -q 'M 10 90 L 50 90 L 50 10 L 10 10 Z' places.svg
+hmdraw -P -s 100 -R 0/10/0/10 -t svg lines.txt >lines.svg
+ok "a breakline where it belongs" grep -q 'M 10 50 L 50 45 L 90 50' lines.svg
+# its ticks point to its left, which is up on the page
+grep -o 'M [0-9.]* [0-9.]* L [0-9.]* [0-9.]* M [^"]*' lines.svg | head -n 1 | tr M '\n' |
+    awk 'NF == 5 { n++; up += $5 < $2 } END { exit !(n > 2 && up == n) }'
+report $? "ticks on the left side"
+
+if python3 -c 'import zlib' 2>/dev/null; then
+    pixel() { python3 "$TESTS/pngpixel.py" "$@" | tr '\n' ' '; }
+    # the north-east corner of the grid is nodata: paper; low in the south-west is blue, high is brown
+    hmdraw -P -s 110 -R -0.5/10.5/-0.5/10.5 -o grid.png dem.asc
+    set -- $(pixel grid.png 105,5 5,105 75,5)
+    true_that "nodata stays transparent" "$1 == 255 && $2 == 255 && $3 == 255"
+    true_that "low is blue" "$6 > $4"
+    true_that "high is brown" "$7 > $9"
+    hmdraw -P -s 100 -R 0/10/0/10 -o residuals.png residuals.hm
+    set -- $(pixel residuals.png 10,90 20,50 30,70)
+    true_that "small residual green" "$2 > $1"
+    true_that "medium residual yellow" "$4 > 200 && $5 > 180 && $6 < 100"
+    true_that "large residual red" "$7 > 200 && $8 < 100 && $9 < 50"
+else
+    skip "no python3 to look at pixels"
+fi
+
+# --- many elements in seconds ---
+awk 'BEGIN { n = 300; print "#hm 1 mesh text\n#data"
+    for (j = 0; j <= n; j++) for (i = 0; i <= n; i++) print "v", i, j, i % 7, 0, 0
+    for (j = 0; j < n; j++) for (i = 0; i < n; i++) { a = j * (n + 1) + i
+        print "t", a, a + 1, a + n + 2, 0; print "t", a, a + n + 2, a + n + 1, 0 }
+    print "#end" }' >large.hm
+start=$(date +%s)
+ok "180,000 triangles" hmdraw -s 800 -o large.png large.hm
+true_that "in seconds" "$(date +%s) - $start < 30"
+
+# --- what cannot be drawn ---
+: >empty
+must_fail "empty input" 2 "empty" hmdraw empty
+head -n 8 mesh.hm >cut.hm
+must_fail "a stream cut off" 2 "cut.hm" hmdraw -o never.png cut.hm
+[ ! -e never.png ]
+report $? "nothing is left of it"
+printf '1 2 3\n1 two 3\n' >word.xyz
+must_fail "a word for a number" 2 "word.xyz:2:" hmdraw word.xyz
+printf '1 2 3\nnan 2 3\n' >nan.xyz
+must_fail "NaN for a coordinate" 2 "nan.xyz:2:" hmdraw nan.xyz
+must_fail "a band that is not there" 2 "no band 'slope'" hmdraw -B slope dem.asc
+must_fail "no window" 2 "w/e/s/n" hmdraw -R 0/10/0 dem.asc
+must_fail "a window inside out" 2 "west" hmdraw -R 10/0/0/10 dem.asc
+must_fail "a size beyond reason" 2 "size" hmdraw -s 1e6 dem.asc
+must_fail "an unknown format" 2 "type" hmdraw -t gif dem.asc
+printf '0 0 1\n1e308 1e308 1\n-1e308 -1e308 1\n' >far.xyz
+must_fail "coordinates too far apart" 2 "far apart" hmdraw far.xyz
+if [ -e /dev/full ]; then
+    for format in png svg pdf; do
+        must_fail "a full disk, $format" 2 "No space" sh -c "hmdraw -t $format dem.asc >/dev/full"
+    done
+fi
+
+done_testing

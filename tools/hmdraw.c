@@ -1,0 +1,337 @@
+/* hmdraw: any streams → a picture. One layer an object, from bottom to top in the order given. */
+#include "hmdraw/draw.h"
+
+#include "hm_cli.h"
+#include "hm_num.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct {
+    const char *region; /* w/e/s/n, NULL: all there is */
+    double size;        /* pixels */
+    int type, fill;     /* enum format, enum fill */
+    bool has_type, plain;
+    const char *title, *band;
+} cmd = {.size = 1600, .title = ""};
+
+static const struct hm_option options[] = {
+    {'R', "region", "W/E/S/N", HM_OPT_TEXT, &cmd.region, .help = "window to draw (default: all)"},
+    {'s', "size", "PIXELS", HM_OPT_POSITIVE, &cmd.size,
+     .help = "longer side of the picture (default 1600)"},
+    {'t', "type", NULL, HM_OPT_CHOICE, &cmd.type,
+     .help = "format (default: by the suffix of -o, or png)", .choices = "png|svg|pdf",
+     .given = &cmd.has_type},
+    {'f', "fill", NULL, HM_OPT_CHOICE, &cmd.fill,
+     .help = "what colours the elements (default region)", .choices = "region|wire|z|quality"},
+    {'B', "band", "NAME", HM_OPT_TEXT, &cmd.band,
+     .help = "draw this band of grids (default z, shaded)"},
+    {'T', "title", "TEXT", HM_OPT_TEXT, &cmd.title, .help = "title above the map"},
+    {'P', "plain", NULL, HM_OPT_FLAG, &cmd.plain, .help = "the map alone: no frame, no legend"},
+    {0}};
+
+static const struct hm_program program = {
+    .name = "hmdraw",
+    .purpose = "draw points, grids, lines and meshes as a map",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_ANY,
+    .degrees_ok = true,
+};
+
+struct layer {
+    enum hm_kind kind;
+    union {
+        struct hm_points points;
+        struct hm_grid grid;
+        struct hm_lines lines;
+        struct hm_mesh mesh;
+    } of;
+};
+
+struct drawing {
+    struct layer *layer;
+    size_t n, cap;
+    struct view view;
+    struct range heights; /* of everything that is coloured by height */
+};
+
+/* --- read --- */
+
+static void read_layers(struct hm_cli *cli, struct drawing *drawing)
+{
+    struct hm_header h;
+    struct hm_diag d = {0};
+    while (hm_cli_next(cli, &h)) {
+        if (!hm_grow(&drawing->layer, &drawing->cap, drawing->n + 1, sizeof *drawing->layer))
+            hm_cli_die(cli, "out of memory");
+        struct layer *layer = &drawing->layer[drawing->n++];
+        *layer = (struct layer){.kind = h.kind};
+        struct hm_reader *r = hm_cli_reader(cli);
+        enum hm_err err = HM_OK;
+        switch (h.kind) {
+        case HM_POINTS:
+            err = hm_points_read(&layer->of.points, r, &h, &d);
+            break;
+        case HM_GRID:
+            err = hm_grid_read(&layer->of.grid, r, &h, &d);
+            break;
+        case HM_LINES:
+            err = hm_lines_read(&layer->of.lines, r, &h, &d);
+            break;
+        default:
+            err = hm_mesh_read(&layer->of.mesh, r, &h, &d);
+            break;
+        }
+        hm_cli_check(cli, err, &d);
+    }
+}
+
+static void free_layers(struct drawing *drawing)
+{
+    for (size_t k = 0; k < drawing->n; k++) {
+        struct layer *layer = &drawing->layer[k];
+        if (layer->kind == HM_POINTS)
+            hm_points_free(&layer->of.points);
+        else if (layer->kind == HM_GRID)
+            hm_grid_free(&layer->of.grid);
+        else if (layer->kind == HM_LINES)
+            hm_lines_free(&layer->of.lines);
+        else
+            hm_mesh_free(&layer->of.mesh);
+    }
+    free(drawing->layer);
+}
+
+/* --- the window --- */
+
+static void widen(struct view *v, double x, double y)
+{
+    v->w = fmin(v->w, x);
+    v->e = fmax(v->e, x);
+    v->s = fmin(v->s, y);
+    v->n = fmax(v->n, y);
+}
+
+static void widen_by_layer(struct view *v, const struct layer *layer)
+{
+    if (layer->kind == HM_POINTS) {
+        const struct hm_points *p = &layer->of.points;
+        for (size_t i = 0; i < p->n; i++)
+            widen(v, p->v[i * p->stride], p->v[i * p->stride + 1]);
+    } else if (layer->kind == HM_GRID) {
+        const struct hm_lattice *l = &layer->of.grid.header.lattice;
+        widen(v, l->x0, l->y0);
+        widen(v, l->x0 + (double)(l->nx - 1) * l->dx, l->y0 + (double)(l->ny - 1) * l->dy);
+    } else if (layer->kind == HM_LINES) {
+        const struct hm_lines *lines = &layer->of.lines;
+        for (size_t k = 0; k < lines->n; k++)
+            for (size_t i = 0; i < lines->line[k].n; i++)
+                widen(v, lines->line[k].xyz[3 * i], lines->line[k].xyz[3 * i + 1]);
+    } else {
+        const struct hm_mesh *m = &layer->of.mesh;
+        for (size_t i = 0; i < m->nnodes; i++)
+            widen(v, m->node[i].x, m->node[i].y);
+    }
+}
+
+/* A little room around the data, and a shape that fits a page. */
+static void round_window(struct view *v)
+{
+    double width = v->e - v->w, height = v->n - v->s, least = fmax(width, height);
+    double tiny = 1e-9 * fmax(fabs(v->w) + fabs(v->e), fabs(v->s) + fabs(v->n));
+    least = fmax(least > 0 ? least / 8 : 1, tiny);
+    double room = 0.01 * fmax(least, fmin(width, height));
+    double dx = fmax(room, (least - width) / 2), dy = fmax(room, (least - height) / 2);
+    v->w -= dx;
+    v->e += dx;
+    v->s -= dy;
+    v->n += dy;
+}
+
+static void parse_window(struct hm_cli *cli, const char *text, struct view *v)
+{
+    double value[4];
+    const char *p = text, *end = text + strlen(text);
+    for (int k = 0; k < 4; k++) {
+        p = hm_num_parse(p, end, &value[k]);
+        if (!p || !isfinite(value[k]) || *p != (k < 3 ? '/' : '\0'))
+            hm_cli_die(cli, "--region: expected w/e/s/n, got '%s'", text);
+        p++;
+    }
+    *v = (struct view){.w = value[0], .e = value[1], .s = value[2], .n = value[3]};
+    if (!(v->w < v->e && v->s < v->n))
+        hm_cli_die(cli, "--region: west must be less than east, south less than north");
+    if (v->e - v->w > 100 * (v->n - v->s) || v->n - v->s > 100 * (v->e - v->w))
+        hm_cli_die(cli, "--region: a window more than 100 times as long as wide");
+}
+
+static void choose_window(struct hm_cli *cli, struct drawing *drawing)
+{
+    struct view *v = &drawing->view;
+    if (cmd.region)
+        return;
+    *v = (struct view){.w = INFINITY, .e = -INFINITY, .s = INFINITY, .n = -INFINITY};
+    for (size_t k = 0; k < drawing->n; k++)
+        widen_by_layer(v, &drawing->layer[k]);
+    if (!(v->w <= v->e))
+        hm_cli_die(cli, "nothing to draw");
+    round_window(v);
+    if (!isfinite(v->e - v->w) || !isfinite(v->n - v->s))
+        hm_cli_die(cli, "coordinates too far apart to draw");
+}
+
+/* --- the range of colours --- */
+
+/* Up to SAMPLES values of each layer; ranges leave out the outermost 0.5 % of them, for blunders.
+ */
+enum { SAMPLES = 100000 };
+
+struct sampling {
+    double *v;
+    size_t n, cap;
+};
+
+static void take(struct hm_cli *cli, struct sampling *s, double value)
+{
+    if (!isfinite(value))
+        return;
+    if (!hm_grow(&s->v, &s->cap, s->n + 1, sizeof *s->v))
+        hm_cli_die(cli, "out of memory");
+    s->v[s->n++] = value;
+}
+
+static void take_band(struct hm_cli *cli, struct sampling *s, const struct hm_grid *g, size_t band)
+{
+    size_t nodes = (size_t)(g->header.lattice.nx * g->header.lattice.ny);
+    for (size_t i = 0, stride = nodes / SAMPLES + 1; i < nodes; i += stride)
+        take(cli, s, g->v[i * g->bands + band]);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Empties the sampling. */
+static struct range robust_range(struct sampling *s)
+{
+    struct range range = {0, 0};
+    if (s->n) {
+        qsort(s->v, s->n, sizeof *s->v, by_value);
+        size_t cut = s->n / 200;
+        range = (struct range){s->v[cut], s->v[s->n - 1 - cut]};
+    }
+    free(s->v);
+    *s = (struct sampling){0};
+    return range;
+}
+
+static void find_heights(struct hm_cli *cli, struct drawing *drawing)
+{
+    struct sampling s = {0};
+    for (size_t k = 0; k < drawing->n; k++) {
+        const struct layer *layer = &drawing->layer[k];
+        if (layer->kind == HM_POINTS) {
+            const struct hm_points *p = &layer->of.points;
+            for (size_t i = 0, stride = p->n / SAMPLES + 1; i < p->n; i += stride)
+                take(cli, &s, p->v[i * p->stride + 2]);
+        } else if (layer->kind == HM_GRID) {
+            take_band(cli, &s, &layer->of.grid, 0);
+        } else if (layer->kind == HM_MESH) {
+            const struct hm_mesh *m = &layer->of.mesh;
+            for (size_t i = 0, stride = m->nnodes / SAMPLES + 1; i < m->nnodes; i += stride)
+                take(cli, &s, m->node[i].z);
+        }
+    }
+    drawing->heights = robust_range(&s);
+}
+
+/* --- draw --- */
+
+static enum hm_err draw_grid_layer(struct hm_cli *cli, struct page *page, const struct hm_grid *g,
+                                   struct range heights, struct hm_diag *d)
+{
+    const char *name = cmd.band ? cmd.band : g->header.fields[2];
+    int field = hm_header_field(&g->header, name);
+    if (field < 2)
+        hm_cli_die(cli, "--band: the grid has no band '%s'", name);
+    size_t band = (size_t)field - 2;
+    if (strcmp(name, "z")) {
+        struct sampling s = {0};
+        take_band(cli, &s, g, band);
+        heights = robust_range(&s);
+    }
+    return draw_grid(page, g, band, name, heights, d);
+}
+
+static void draw_layers(struct hm_cli *cli, struct page *page, const struct drawing *drawing)
+{
+    struct hm_diag d = {0};
+    for (size_t k = 0; k < drawing->n; k++) {
+        const struct layer *layer = &drawing->layer[k];
+        enum hm_err err = HM_OK;
+        if (layer->kind == HM_POINTS)
+            err = draw_points(page, &layer->of.points, drawing->heights, &d);
+        else if (layer->kind == HM_GRID)
+            err = draw_grid_layer(cli, page, &layer->of.grid, drawing->heights, &d);
+        else if (layer->kind == HM_LINES)
+            err = draw_lines(page, &layer->of.lines, &d);
+        else
+            err = draw_mesh(page, &layer->of.mesh, (enum fill)cmd.fill, drawing->heights, &d);
+        hm_cli_check(cli, err, &d);
+        hm_cli_progress(cli, "drawing", (double)(k + 1) / (double)drawing->n);
+    }
+}
+
+/* --- write --- */
+
+struct sink {
+    struct hm_writer *writer;
+    struct hm_diag d;
+};
+
+static cairo_status_t sink_write(void *closure, const unsigned char *data, unsigned int length)
+{
+    struct sink *sink = closure;
+    return hm_writer_bytes(sink->writer, data, length, &sink->d) ? CAIRO_STATUS_WRITE_ERROR
+                                                                 : CAIRO_STATUS_SUCCESS;
+}
+
+static enum format choose_format(struct hm_cli *cli)
+{
+    const char *path = hm_cli_output(cli), *dot = strrchr(path, '.');
+    int type = cmd.type;
+    if (!cmd.has_type && dot)
+        type = !strcmp(dot, ".svg") ? FORMAT_SVG : !strcmp(dot, ".pdf") ? FORMAT_PDF : FORMAT_PNG;
+    if (type != FORMAT_SVG && !strcmp(path, "-") && isatty(STDOUT_FILENO))
+        hm_cli_die(cli, "a picture does not go to a terminal; use -o or a pipe");
+    return (enum format)type;
+}
+
+int main(int argc, char **argv)
+{
+    struct hm_cli *cli = hm_cli_start(&program, argc, argv);
+    struct drawing drawing = {0};
+    struct page page = {.plain = cmd.plain, .format = choose_format(cli)};
+    if (cmd.size < 64 || cmd.size > 20000)
+        hm_cli_die(cli, "--size: must be within 64 and 20000 pixels");
+    if (cmd.region)
+        parse_window(cli, cmd.region, &drawing.view);
+    read_layers(cli, &drawing);
+    choose_window(cli, &drawing);
+    find_heights(cli, &drawing);
+
+    struct sink sink = {.writer = hm_cli_writer(cli)};
+    page.view = drawing.view;
+    hm_cli_check(cli, page_open(&page, cmd.size, cmd.title, sink_write, &sink, &sink.d), &sink.d);
+    draw_layers(cli, &page, &drawing);
+    page_furnish(&page, cmd.title);
+    hm_cli_check(cli, page_close(&page, sink_write, &sink, &sink.d), &sink.d);
+    free_layers(&drawing);
+    return hm_cli_finish(cli);
+}

@@ -1,0 +1,52 @@
+/* Colours that stay apart for colour-blind eyes: a height ramp from blue to brown through light
+ * tones, on which lines can be seen, and the palette of Okabe and Ito for classes. */
+#include "draw.h"
+
+#include <math.h>
+
+const struct rgb INK = {0.13, 0.13, 0.15}, PAPER = {1, 1, 1}, GREY = {0.62, 0.62, 0.62};
+const struct rgb BREAKLINE = {0.80, 0.06, 0.10}, ROUGH = {0.05, 0.10, 0.45};
+const struct rgb STRING = {0.00, 0.45, 0.35};
+const struct rgb GOOD = {0.00, 0.62, 0.45}, FAIR = {0.94, 0.84, 0.20}, POOR = {0.84, 0.25, 0.00};
+
+enum { STOPS = 7 };
+
+static const struct rgb stops[][STOPS] = {
+    [RAMP_HEIGHT] = {{0.16, 0.40, 0.60},
+                     {0.36, 0.62, 0.74},
+                     {0.66, 0.82, 0.80},
+                     {0.88, 0.91, 0.78},
+                     {0.95, 0.87, 0.66},
+                     {0.85, 0.68, 0.44},
+                     {0.62, 0.42, 0.27}},
+    [RAMP_VALUE] = {{1.00, 1.00, 0.92},
+                    {1.00, 0.92, 0.68},
+                    {0.99, 0.78, 0.42},
+                    {0.96, 0.57, 0.25},
+                    {0.87, 0.33, 0.20},
+                    {0.65, 0.12, 0.28},
+                    {0.36, 0.03, 0.32}},
+};
+
+double range_part(struct range range, double v)
+{
+    return range.hi > range.lo ? (v - range.lo) / (range.hi - range.lo) : 0.5;
+}
+
+struct rgb ramp_colour(enum ramp ramp, double t)
+{
+    double place = fmin(1, fmax(0, t)) * (STOPS - 1);
+    int k = place >= STOPS - 1 ? STOPS - 2 : (int)place;
+    double u = place - k;
+    struct rgb a = stops[ramp][k], b = stops[ramp][k + 1];
+    return (struct rgb){a.r + u * (b.r - a.r), a.g + u * (b.g - a.g), a.b + u * (b.b - a.b)};
+}
+
+struct rgb owner_colour(int32_t owner)
+{
+    static const struct rgb palette[] = {{0.34, 0.71, 0.91}, {0.90, 0.62, 0.00}, {0.00, 0.62, 0.45},
+                                         {0.80, 0.47, 0.65}, {0.94, 0.89, 0.26}, {0.00, 0.45, 0.70},
+                                         {0.84, 0.37, 0.00}};
+    enum { COLOURS = sizeof palette / sizeof *palette };
+    return palette[(owner - 1) % COLOURS];
+}

@@ -1,0 +1,175 @@
+/* Grids: heights as a shaded relief in a colour ramp, other bands in colour alone. */
+#include "draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The grid as a field of page pixels: where a pixel has no height it is NaN. */
+struct field {
+    double *z;
+    int64_t width, height;
+};
+
+static double node_at(const struct hm_grid *g, size_t band, int64_t i, int64_t j)
+{
+    const struct hm_lattice *l = &g->header.lattice;
+    if (i < 0 || j < 0 || i >= l->nx || j >= l->ny)
+        return NAN;
+    return g->v[(size_t)(j * l->nx + i) * g->bands + band];
+}
+
+/* Bilinear between four nodes, else the nearest node, up to half a cell beyond the last. */
+static double sample(const struct hm_grid *g, size_t band, double u, double v)
+{
+    const struct hm_lattice *l = &g->header.lattice;
+    if (!(u > -0.5 && v > -0.5 && u < (double)l->nx - 0.5 && v < (double)l->ny - 0.5))
+        return NAN;
+    double i = floor(u), j = floor(v);
+    int64_t a = (int64_t)i, b = (int64_t)j;
+    double fu = u - i, fv = v - j;
+    double z = (1 - fv) * ((1 - fu) * node_at(g, band, a, b) + fu * node_at(g, band, a + 1, b)) +
+               fv * ((1 - fu) * node_at(g, band, a, b + 1) + fu * node_at(g, band, a + 1, b + 1));
+    return isnan(z) ? node_at(g, band, a + (fu > 0.5), b + (fv > 0.5)) : z;
+}
+
+/* Mean of the nodes in a box of hu × hv cells around (u, v); for grids finer than the page. */
+static double box_mean(const struct hm_grid *g, size_t band, double u, double v, double hu,
+                       double hv)
+{
+    double sum = 0;
+    int64_t n = 0;
+    for (int64_t j = (int64_t)ceil(v - hv / 2); (double)j < v + hv / 2; j++)
+        for (int64_t i = (int64_t)ceil(u - hu / 2); (double)i < u + hu / 2; i++) {
+            double z = node_at(g, band, i, j);
+            if (!isnan(z)) {
+                sum += z;
+                n++;
+            }
+        }
+    return n ? sum / (double)n : NAN;
+}
+
+static enum hm_err resample(struct field *f, const struct hm_grid *g, size_t band,
+                            const struct view *view, double zoom, struct hm_diag *d)
+{
+    const struct hm_lattice *l = &g->header.lattice;
+    const double step = 1 / (view->scale * zoom); /* metres a pixel */
+    const double hu = step / fabs(l->dx), hv = step / fabs(l->dy);
+    f->z = hm_alloc((size_t)(f->width * f->height), sizeof *f->z);
+    if (!f->z)
+        return hm_fail_memory(d);
+    for (int64_t y = 0; y < f->height; y++)
+        for (int64_t x = 0; x < f->width; x++) {
+            double u = (view->w + ((double)x + 0.5) * step - l->x0) / l->dx;
+            double v = (view->n - ((double)y + 0.5) * step - l->y0) / l->dy;
+            double *z = &f->z[y * f->width + x];
+            bool beyond = !(u > -1 && v > -1 && u < (double)l->nx && v < (double)l->ny);
+            *z = beyond                 ? NAN
+                 : hu > 1.5 || hv > 1.5 ? box_mean(g, band, u, v, hu, hv)
+                                        : sample(g, band, u, v);
+        }
+    return HM_OK;
+}
+
+static double field_at(const struct field *f, int64_t x, int64_t y)
+{
+    return x < 0 || y < 0 || x >= f->width || y >= f->height ? NAN : f->z[y * f->width + x];
+}
+
+/* Rise a pixel towards x, y by central differences over `reach` pixels, one-sided at the border. */
+static void gradient(const struct field *f, int64_t x, int64_t y, int64_t reach, double slope[2])
+{
+    const double here = field_at(f, x, y);
+    for (int k = 0; k < 2; k++) {
+        double ahead = field_at(f, x + (k ? 0 : reach), y + (k ? reach : 0));
+        double behind = field_at(f, x - (k ? 0 : reach), y - (k ? reach : 0));
+        double run = (double)reach * (!isnan(ahead) + !isnan(behind));
+        double rise = (isnan(ahead) ? here : ahead) - (isnan(behind) ? here : behind);
+        slope[k] = run > 0 ? rise / run : 0;
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* How much heights are stretched: steep places, but for the steepest fiftieth, shall look 40°. */
+static double exaggeration(const struct field *f, int64_t reach, double step)
+{
+    enum { MOST = 20000 };
+    double steep[MOST];
+    size_t n = 0;
+    int64_t stride = f->width * f->height / MOST + 1;
+    for (int64_t k = 0; k < f->width * f->height; k += stride) {
+        double s[2];
+        gradient(f, k % f->width, k / f->width, reach, s);
+        if (!isnan(f->z[k]))
+            steep[n++] = sqrt(s[0] * s[0] + s[1] * s[1]) / step;
+    }
+    qsort(steep, n, sizeof *steep, by_value);
+    double typical = n ? steep[n - 1 - n / 50] : 0;
+    return typical > 0 ? fmin(8, fmax(1, 0.84 / typical)) : 1;
+}
+
+/* Lambert's law with the light from north-west, 45° high: 1 on level ground. */
+static double shade(const double slope[2], double stretch)
+{
+    double a = -slope[0] * stretch, b = -slope[1] * stretch; /* page y runs down */
+    double light = (-a - b) / sqrt(2) + 1;
+    return fmax(0, light / sqrt(a * a + b * b + 1));
+}
+
+static void paint_relief(struct image *image, const struct field *f, int64_t reach, double step,
+                         struct range range)
+{
+    const double stretch = exaggeration(f, reach, step) / step;
+    for (int64_t y = 0; y < f->height; y++)
+        for (int64_t x = 0; x < f->width; x++) {
+            double z = f->z[y * f->width + x], s[2];
+            if (isnan(z))
+                continue;
+            gradient(f, x, y, reach, s);
+            double light = 0.35 + 0.65 * shade(s, stretch);
+            struct rgb c = ramp_colour(RAMP_HEIGHT, range_part(range, z));
+            image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
+        }
+}
+
+static void paint_values(struct image *image, const struct field *f, struct range range)
+{
+    for (int64_t y = 0; y < f->height; y++)
+        for (int64_t x = 0; x < f->width; x++) {
+            double z = f->z[y * f->width + x];
+            if (!isnan(z))
+                image_put(image, x, y, ramp_colour(RAMP_VALUE, range_part(range, z)), 1);
+        }
+}
+
+enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, const char *name,
+                      struct range range, struct hm_diag *d)
+{
+    struct image image;
+    enum hm_err err = image_open(&image, page, d);
+    if (err)
+        return err;
+    struct field f = {.width = image.width, .height = image.height};
+    err = resample(&f, g, band, &page->view, image.zoom, d);
+    if (!err) {
+        double step = 1 / (page->view.scale * image.zoom); /* metres a pixel */
+        double node = fmin(fabs(g->header.lattice.dx), fabs(g->header.lattice.dy)) / step;
+        bool relief = !strcmp(name, "z");
+        if (relief)
+            paint_relief(&image, &f, node > 1 ? (int64_t)ceil(node) : 1, step, range);
+        else
+            paint_values(&image, &f, range);
+        legend_bar(page, relief ? RAMP_HEIGHT : RAMP_VALUE, range, relief ? "Height (m)" : name);
+        page->has_ground = true;
+    }
+    image_paint(&image, page);
+    free(f.z);
+    return err;
+}

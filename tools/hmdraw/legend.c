@@ -1,0 +1,220 @@
+/* The panel beside the map: legend, colour bars, scale bar, north arrow. */
+#include "draw.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+double nice_step(double v)
+{
+    double power = 1;
+    while (power > v)
+        power /= 10;
+    while (10 * power <= v)
+        power *= 10;
+    return v >= 5 * power ? 5 * power : v >= 2 * power ? 2 * power : power;
+}
+
+void draw_text(struct page *page, double x, double y, double size, const char *text)
+{
+    cairo_set_font_size(page->cr, size);
+    cairo_move_to(page->cr, x, y);
+    cairo_show_text(page->cr, text);
+    cairo_new_path(page->cr);
+}
+
+/* --- entries --- */
+
+static struct legend_item *find(struct page *page, enum mark mark, const char *text)
+{
+    for (size_t k = 0; k < page->nitems; k++)
+        if (page->item[k].mark == mark && !strcmp(page->item[k].text, text))
+            return &page->item[k];
+    if (page->nitems == LEGEND_ITEMS)
+        return NULL;
+    struct legend_item *item = &page->item[page->nitems++];
+    item->mark = mark;
+    snprintf(item->text, sizeof item->text, "%s", text);
+    return item;
+}
+
+void legend_add(struct page *page, enum mark mark, struct rgb colour, int64_t count,
+                const char *format, ...)
+{
+    char text[LEGEND_TEXT];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    struct legend_item *item = find(page, mark, text);
+    if (!item)
+        return;
+    item->colour = colour;
+    item->count += count;
+}
+
+void legend_bar(struct page *page, enum ramp ramp, struct range range, const char *text)
+{
+    struct legend_item *item = find(page, MARK_BAR, text);
+    if (!item)
+        return;
+    item->ramp = ramp;
+    item->range = range;
+    item->count = -1;
+}
+
+/* --- drawing --- */
+
+/* 337368 as "337 368" */
+static void print_count(char *text, size_t size, int64_t count)
+{
+    char digits[32];
+    int n = snprintf(digits, sizeof digits, "%lld", (long long)count);
+    size_t k = 0;
+    for (int i = 0; i < n && k + 2 < size; i++) {
+        if (i && (n - i) % 3 == 0)
+            text[k++] = ' ';
+        text[k++] = digits[i];
+    }
+    text[k] = 0;
+}
+
+static void draw_sample(struct page *page, const struct legend_item *item, double x, double y)
+{
+    cairo_t *cr = page->cr;
+    const double em = page->em, width = 2 * em;
+    page_colour(page, item->colour, 1);
+    cairo_set_line_width(cr, 0.13 * em);
+    switch (item->mark) {
+    case MARK_DASHES:
+        cairo_set_dash(cr, (double[]){0.45 * em, 0.3 * em}, 2, 0);
+        /* fall through */
+    case MARK_LINE:
+        cairo_move_to(cr, x, y - 0.35 * em);
+        cairo_line_to(cr, x + width, y - 0.35 * em);
+        cairo_stroke(cr);
+        cairo_set_dash(cr, NULL, 0, 0);
+        break;
+    case MARK_DOT:
+        cairo_arc(cr, x + width / 2, y - 0.35 * em, 0.28 * em, 0, 4 * acos(0));
+        cairo_fill(cr);
+        break;
+    case MARK_FILL:
+    case MARK_BAR:
+        cairo_rectangle(cr, x + 0.2 * em, y - 0.85 * em, 1.6 * em, em);
+        cairo_fill_preserve(cr);
+        page_colour(page, INK, 1);
+        cairo_set_line_width(cr, 0.05 * em);
+        cairo_stroke(cr);
+        break;
+    }
+    page_colour(page, INK, 1);
+}
+
+/* A colour bar of nice values, highest on top; returns its height. */
+static double draw_bar(struct page *page, const struct legend_item *item, double x, double y,
+                       double height)
+{
+    cairo_t *cr = page->cr;
+    const double em = page->em, top = y + 0.6 * em;
+    const struct range r = item->range;
+    draw_text(page, x, y, em, item->text);
+    cairo_pattern_t *shade = cairo_pattern_create_linear(0, top + height, 0, top);
+    for (int k = 0; k <= 12; k++) {
+        struct rgb c = ramp_colour(item->ramp, k / 12.0);
+        cairo_pattern_add_color_stop_rgb(shade, k / 12.0, c.r, c.g, c.b);
+    }
+    cairo_rectangle(cr, x + 0.2 * em, top, 1.6 * em, height);
+    cairo_set_source(cr, shade);
+    cairo_fill_preserve(cr);
+    cairo_pattern_destroy(shade);
+    page_colour(page, INK, 1);
+    cairo_set_line_width(cr, 0.05 * em);
+    cairo_stroke(cr);
+    double step = r.hi > r.lo ? nice_step((r.hi - r.lo) / 4) : 1;
+    for (double v = ceil(r.lo / step) * step; v <= r.hi; v += step) {
+        char text[32];
+        double at = top + height * (1 - range_part(r, v));
+        snprintf(text, sizeof text, "%.6g", fabs(v) < step / 2 ? 0 : v);
+        cairo_move_to(cr, x + 1.8 * em, at);
+        cairo_line_to(cr, x + 2.1 * em, at);
+        cairo_stroke(cr);
+        draw_text(page, x + 2.5 * em, at + 0.32 * em, 0.9 * em, text);
+    }
+    return height + 3 * em;
+}
+
+static void draw_north(struct page *page, double x, double y)
+{
+    const double em = page->em;
+    cairo_move_to(page->cr, x, y - 2.4 * em);
+    cairo_line_to(page->cr, x + 0.7 * em, y);
+    cairo_line_to(page->cr, x, y - 0.5 * em);
+    cairo_line_to(page->cr, x - 0.7 * em, y);
+    cairo_close_path(page->cr);
+    cairo_fill(page->cr);
+    draw_text(page, x - 0.38 * em, y - 2.7 * em, em, "N");
+}
+
+/* Two black and two white fields of a nice length together. */
+static void draw_scale(struct page *page, double x, double y)
+{
+    const double em = page->em, length = nice_step(11 * em / page->view.scale);
+    const double part = length * page->view.scale / 4;
+    char text[32];
+    cairo_set_line_width(page->cr, 0.06 * em);
+    for (int k = 0; k < 4; k++) {
+        cairo_rectangle(page->cr, x + k * part, y - 0.4 * em, part, 0.4 * em);
+        if (k % 2 == 0)
+            cairo_fill_preserve(page->cr);
+        cairo_stroke(page->cr);
+    }
+    draw_text(page, x, y - 0.8 * em, 0.9 * em, "0");
+    if (length >= 1000)
+        snprintf(text, sizeof text, "%.6g km", length / 1000);
+    else
+        snprintf(text, sizeof text, "%.6g m", length);
+    draw_text(page, x + 4 * part - 0.5 * em, y - 0.8 * em, 0.9 * em, text);
+}
+
+/* The text of an item and, in grey, what it counts: behind it, or below where there is no room.
+ * Returns the height taken. */
+static double draw_item(struct page *page, const struct legend_item *item, double x, double y)
+{
+    const double em = page->em, left = x + 2.5 * em;
+    char count[40];
+    cairo_text_extents_t box;
+    draw_sample(page, item, x, y);
+    draw_text(page, left, y, em, item->text);
+    if (item->count < 0)
+        return 1.7 * em;
+    cairo_text_extents(page->cr, item->text, &box);
+    print_count(count, sizeof count, item->count);
+    bool below = 2.5 * em + box.x_advance + 0.6 * em * (double)strlen(count) > 15.5 * em;
+    page_colour(page, (struct rgb){0.4, 0.4, 0.4}, 1);
+    draw_text(page, below ? left : left + box.x_advance + 0.6 * em, below ? y + 1.15 * em : y,
+              0.85 * em, count);
+    page_colour(page, INK, 1);
+    return below ? 2.8 * em : 1.7 * em;
+}
+
+void legend_draw(struct page *page, double x, double y)
+{
+    const double em = page->em, bottom = page->height - 2.2 * em;
+    size_t bars = 0;
+    y += em;
+    page_colour(page, INK, 1);
+    for (size_t k = 0; k < page->nitems; k++)
+        if (page->item[k].mark == MARK_BAR)
+            bars++;
+        else
+            y += draw_item(page, &page->item[k], x, y);
+    /* what is left above the scale bar is shared by the colour bars */
+    double room = bars ? (bottom - 5 * em - y) / (double)bars - 3 * em : 0;
+    for (size_t k = 0; k < page->nitems; k++)
+        if (page->item[k].mark == MARK_BAR && room > 2 * em)
+            y += draw_bar(page, &page->item[k], x, y + em, fmin(9 * em, room));
+    draw_scale(page, x, bottom);
+    draw_north(page, x + 15 * em, bottom);
+}

@@ -1,5 +1,6 @@
 #include "hm_bspline.h"
 
+#include "hm_bfringe.h"
 #include "hm_thread.h"
 
 #include <math.h>
@@ -84,6 +85,7 @@ enum hm_err hm_bsurf_init(struct hm_bsurf *s, int degree, size_t n, size_t m, si
 
 void hm_bsurf_free(struct hm_bsurf *s)
 {
+    hm_bfringe_free(s->fringe);
     free(s->d);
     *s = (struct hm_bsurf){0};
 }
@@ -106,6 +108,8 @@ void hm_bsurf_extend(struct hm_bsurf *s)
     size_t row = (s->n + 2) * s->dim;
     extrapolate(hm_bsurf_at(s, -1, -1), hm_bsurf_at(s, -1, 0), hm_bsurf_at(s, -1, 1), row);
     extrapolate(hm_bsurf_at(s, -1, m), hm_bsurf_at(s, -1, m - 1), hm_bsurf_at(s, -1, m - 2), row);
+    if (s->fringe)
+        hm_bfringe_fill(s);
 }
 
 /* Weights at u; leaves out the last when it is the point behind the ring, where it is 0. */
@@ -140,6 +144,34 @@ void hm_bsurf_eval(const struct hm_bsurf *s, double u, double v, double *point, 
             du[c] = sum_u;
         if (dv)
             dv[c] = sum_v;
+    }
+}
+
+/* Basis values at a Greville site: side, middle, side. */
+static double side_weight(int degree)
+{
+    return degree == 1 ? 0 : degree == 2 ? 1.0 / 8 : 1.0 / 6;
+}
+
+void hm_bsurf_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv)
+{
+    double side = side_weight(s->degree), middle = 1 - 2 * side;
+    size_t dim = s->dim, row = (s->n + 2) * dim;
+    const double *d = hm_bsurf_at(s, 0, (int64_t)j);
+    for (size_t k = 0; k < s->n * dim; k++) {
+        const double *before = d + k - row, *here = d + k, *behind = d + k + row;
+        double sum[3], slope[3];
+        const double *const three[3] = {before, here, behind};
+        for (int r = 0; r < 3; r++) {
+            const double *c = three[r];
+            sum[r] = side * (*(c - dim) + c[dim]) + middle * *c;
+            slope[r] = (c[dim] - *(c - dim)) / 2;
+        }
+        point[k] = side * (sum[0] + sum[2]) + middle * sum[1];
+        if (du)
+            du[k] = side * (slope[0] + slope[2]) + middle * slope[1];
+        if (dv)
+            dv[k] = (sum[2] - sum[0]) / 2;
     }
 }
 
@@ -243,8 +275,7 @@ static double drag_once(struct drag *g, int threads)
 enum hm_err hm_bsurf_drag(struct hm_bsurf *s, const double *z, int iterations, int threads,
                           double *rest, struct hm_diag *d)
 {
-    static const double side[] = {0, 0, 1.0 / 8, 1.0 / 6};
-    struct drag g = {.s = s, .z = z, .side = side[s->degree], .width = s->n * s->dim};
+    struct drag g = {.s = s, .z = z, .side = side_weight(s->degree), .width = s->n * s->dim};
     g.middle = 1 - 2 * g.side;
     size_t bands = (s->m + BAND - 1) / BAND;
     g.border = hm_alloc(2 * bands, g.width * sizeof *g.border);

@@ -22,10 +22,11 @@ double hm_bspline_basis(const double *knots, size_t i, int degree, double u);
 void hm_bspline_weights(int degree, double u, int64_t *first, double w[4], double dw[4]);
 
 struct hm_bsurf {
-    int degree;  /* 1, 2 or 3, in both directions */
-    size_t n, m; /* control points along u and along v, at least 2 */
-    size_t dim;  /* coordinates a control point: 1 (z) or 3 */
-    double *d;   /* (n + 2) × (m + 2) × dim, with the ring; use hm_bsurf_at */
+    int degree;                /* 1, 2 or 3, in both directions */
+    size_t n, m;               /* control points along u and along v, at least 2 */
+    size_t dim;                /* coordinates a control point: 1 (z) or 3 */
+    double *d;                 /* (n + 2) × (m + 2) × dim, with the ring; use hm_bsurf_at */
+    struct hm_bfringe *fringe; /* control points missing inside the net (hm_bfringe.h), or NULL */
 };
 
 enum hm_err hm_bsurf_init(struct hm_bsurf *s, int degree, size_t n, size_t m, size_t dim,
@@ -38,12 +39,17 @@ static inline double *hm_bsurf_at(const struct hm_bsurf *s, int64_t i, int64_t j
     return s->d + ((size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1)) * s->dim;
 }
 
-/* Make the ring anew from the net: to be called after the net was written. */
+/* Make the ring, and the fringe of missing control points, anew from the net: to be called after
+ * the net was written. */
 void hm_bsurf_extend(struct hm_bsurf *s);
 
 /* Point (dim coordinates) at u, v (equation 4), and on request its derivatives (NULL: not). */
 void hm_bsurf_eval(const struct hm_bsurf *s, double u, double v, double *point, double *du,
                    double *dv);
+
+/* The surface at the Greville sites of row j: n × dim numbers, and on request the derivatives there
+ * (NULL: not; the mean of both sides for degree 1, which has an edge there). */
+void hm_bsurf_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv);
 
 /* Dragging (progressive-iterative approximation): `iterations` times D += Z - B·D·Bᵀ, where Z
  * (n × m × dim) is what the surface should pass through at the Greville sites; the ring is made

@@ -1,0 +1,138 @@
+#include "hm_bfringe.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum state { MISSING, DATA, FRINGE };
+
+struct hm_bfringe {
+    int8_t *state; /* (n + 2) × (m + 2), ring included */
+    size_t *item;  /* positions of the fringe in it, ascending */
+    size_t n, cap;
+};
+
+/* rows and columns first, then diagonals */
+static const int direction[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                    {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+
+static size_t position(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    return (size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1);
+}
+
+bool hm_bfringe_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    return i >= 0 && j >= 0 && i < (int64_t)s->n && j < (int64_t)s->m &&
+           (!s->fringe || s->fringe->state[position(s, i, j)] == DATA);
+}
+
+static bool is_beside_data(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    for (int k = 0; k < 8; k++)
+        if (hm_bfringe_has_data(s, i + direction[k][0], j + direction[k][1]))
+            return true;
+    return false;
+}
+
+static enum hm_err find_fringe(const struct hm_bsurf *s, struct hm_diag *d)
+{
+    struct hm_bfringe *f = s->fringe;
+    for (int64_t j = -1; j <= (int64_t)s->m; j++)
+        for (int64_t i = -1; i <= (int64_t)s->n; i++) {
+            size_t at = position(s, i, j);
+            if (f->state[at] == DATA || !is_beside_data(s, i, j))
+                continue;
+            if (!hm_grow(&f->item, &f->cap, f->n + 1, sizeof *f->item))
+                return hm_fail_memory(d);
+            f->item[f->n++] = at;
+            f->state[at] = FRINGE;
+        }
+    return HM_OK;
+}
+
+enum hm_err hm_bfringe_declare(struct hm_bsurf *s, const double *z, struct hm_diag *d)
+{
+    size_t k = 0, nodes = s->n * s->m;
+    while (k < nodes && !isnan(z[k]))
+        k++;
+    if (k == nodes)
+        return HM_OK;
+    s->fringe = hm_alloc0(1, sizeof *s->fringe);
+    if (!s->fringe)
+        return hm_fail_memory(d);
+    s->fringe->state = hm_alloc0((s->n + 2) * (s->m + 2), sizeof *s->fringe->state);
+    if (!s->fringe->state)
+        return hm_fail_memory(d);
+    for (k = 0; k < nodes; k++)
+        if (!isnan(z[k]))
+            s->fringe->state[position(s, (int64_t)(k % s->n), (int64_t)(k / s->n))] = DATA;
+    return find_fringe(s, d);
+}
+
+void hm_bfringe_free(struct hm_bfringe *f)
+{
+    if (!f)
+        return;
+    free(f->state);
+    free(f->item);
+    free(f);
+}
+
+bool hm_bfringe_knows(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    return !s->fringe || s->fringe->state[position(s, i, j)] != MISSING;
+}
+
+/* Mean of the linear extrapolations along directions first .. first+3; false when no direction has
+ * two control points with data. */
+static bool by_lines(const struct hm_bsurf *s, int64_t i, int64_t j, int first, size_t c,
+                     double *value)
+{
+    double sum = 0;
+    int n = 0;
+    for (int k = first; k < first + 4; k++) {
+        int di = direction[k][0], dj = direction[k][1];
+        if (!hm_bfringe_has_data(s, i + di, j + dj) ||
+            !hm_bfringe_has_data(s, i + 2 * di, j + 2 * dj))
+            continue;
+        sum += 2 * hm_bsurf_at(s, i + di, j + dj)[c] - hm_bsurf_at(s, i + 2 * di, j + 2 * dj)[c];
+        n++;
+    }
+    *value = sum / n;
+    return n > 0;
+}
+
+/* The plane of least squares through the control points up to two steps away, at (i, j); their mean
+ * when they lie on one line. */
+static double by_plane(const struct hm_bsurf *s, int64_t i, int64_t j, size_t c)
+{
+    double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+    for (int dj = -2; dj <= 2; dj++)
+        for (int di = -2; di <= 2; di++) {
+            if (!hm_bfringe_has_data(s, i + di, j + dj))
+                continue;
+            double v = hm_bsurf_at(s, i + di, j + dj)[c];
+            n += 1, x += di, y += dj, z += v;
+            xx += di * di, xy += di * dj, yy += dj * dj, xz += di * v, yz += dj * v;
+        }
+    x /= n, y /= n, z /= n;
+    xx -= n * x * x, xy -= n * x * y, yy -= n * y * y, xz -= n * x * z, yz -= n * y * z;
+    double det = xx * yy - xy * xy;
+    if (det < 1e-6) /* of small integers: 0 but for rounding */
+        return z;
+    return z - x * (xz * yy - yz * xy) / det - y * (yz * xx - xz * xy) / det;
+}
+
+void hm_bfringe_fill(const struct hm_bsurf *s)
+{
+    const struct hm_bfringe *f = s->fringe;
+    for (size_t k = 0; k < f->n; k++) {
+        int64_t i = (int64_t)(f->item[k] % (s->n + 2)) - 1;
+        int64_t j = (int64_t)(f->item[k] / (s->n + 2)) - 1;
+        double *d = hm_bsurf_at(s, i, j);
+        for (size_t c = 0; c < s->dim; c++)
+            if (!by_lines(s, i, j, 0, c, &d[c]) && !by_lines(s, i, j, 4, c, &d[c]))
+                d[c] = by_plane(s, i, j, c);
+    }
+}

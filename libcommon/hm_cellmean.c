@@ -1,0 +1,152 @@
+#include "hm_cellmean.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE = 64, EMPTY = -1 };
+
+struct tile {
+    int64_t ti, tj; /* numbers of its cells divided by SIDE */
+    double sum[SIDE * SIDE];
+    uint64_t count[SIDE * SIDE];
+};
+
+/* Tiles are found by an open hash table of their numbers. */
+struct hm_cellmean {
+    double spacing;
+    struct tile **tile;
+    size_t ntiles, cap;
+    int64_t *slot; /* tile number or EMPTY */
+    size_t nslots; /* a power of 2, more than twice ntiles */
+    struct tile *last;
+};
+
+enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, struct hm_diag *d)
+{
+    enum { FIRST_SLOTS = 64 };
+    *c = hm_alloc0(1, sizeof **c);
+    if (!*c)
+        return hm_fail_memory(d);
+    (*c)->spacing = spacing;
+    (*c)->slot = hm_alloc(FIRST_SLOTS, sizeof *(*c)->slot);
+    if (!(*c)->slot) {
+        hm_cellmean_free(*c);
+        *c = NULL;
+        return hm_fail_memory(d);
+    }
+    (*c)->nslots = FIRST_SLOTS;
+    for (size_t k = 0; k < FIRST_SLOTS; k++)
+        (*c)->slot[k] = EMPTY;
+    return HM_OK;
+}
+
+void hm_cellmean_free(struct hm_cellmean *c)
+{
+    if (!c)
+        return;
+    for (size_t k = 0; k < c->ntiles; k++)
+        free(c->tile[k]);
+    free(c->tile);
+    free(c->slot);
+    free(c);
+}
+
+/* The slot of a tile, or the empty one where it would go. */
+static size_t find_slot(const struct hm_cellmean *c, int64_t ti, int64_t tj)
+{
+    uint64_t hash = (uint64_t)ti * 0x9E3779B97F4A7C15u ^ (uint64_t)tj * 0xC2B2AE3D27D4EB4Fu;
+    size_t k = (size_t)(hash ^ hash >> 29) & (c->nslots - 1);
+    while (c->slot[k] != EMPTY && (c->tile[c->slot[k]]->ti != ti || c->tile[c->slot[k]]->tj != tj))
+        k = (k + 1) & (c->nslots - 1);
+    return k;
+}
+
+static bool more_slots(struct hm_cellmean *c)
+{
+    int64_t *old = c->slot;
+    int64_t *slot = hm_alloc(2 * c->nslots, sizeof *slot);
+    if (!slot)
+        return false;
+    c->slot = slot;
+    c->nslots *= 2;
+    for (size_t k = 0; k < c->nslots; k++)
+        slot[k] = EMPTY;
+    for (size_t t = 0; t < c->ntiles; t++)
+        slot[find_slot(c, c->tile[t]->ti, c->tile[t]->tj)] = (int64_t)t;
+    free(old);
+    return true;
+}
+
+static struct tile *get_tile(struct hm_cellmean *c, int64_t ti, int64_t tj)
+{
+    if (c->last && c->last->ti == ti && c->last->tj == tj)
+        return c->last;
+    size_t k = find_slot(c, ti, tj);
+    if (c->slot[k] == EMPTY) {
+        if (!hm_grow(&c->tile, &c->cap, c->ntiles + 1, sizeof *c->tile))
+            return NULL;
+        if (2 * (c->ntiles + 1) >= c->nslots) {
+            if (!more_slots(c))
+                return NULL;
+            k = find_slot(c, ti, tj);
+        }
+        struct tile *t = hm_alloc0(1, sizeof *t);
+        if (!t)
+            return NULL;
+        t->ti = ti;
+        t->tj = tj;
+        c->tile[c->ntiles] = t;
+        c->slot[k] = (int64_t)c->ntiles++;
+    }
+    return c->last = c->tile[c->slot[k]];
+}
+
+/* floor(n / SIDE) for any sign */
+static int64_t tile_of(int64_t n)
+{
+    return (n >= 0 ? n : n - (SIDE - 1)) / SIDE;
+}
+
+enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z, struct hm_diag *d)
+{
+    const double farthest = 1e15; /* cells from the origin: doubles still tell neighbours apart */
+    double u = floor(x / c->spacing + 0.5), v = floor(y / c->spacing + 0.5);
+    if (fabs(u) > farthest || fabs(v) > farthest)
+        return hm_fail_at(d, HM_EGEOM, x, y, "a point too far off for a spacing of %g", c->spacing);
+    int64_t i = (int64_t)u, j = (int64_t)v;
+    int64_t ti = tile_of(i), tj = tile_of(j);
+    struct tile *t = get_tile(c, ti, tj);
+    if (!t)
+        return hm_fail_memory(d);
+    size_t cell = (size_t)((j - tj * SIDE) * SIDE + (i - ti * SIDE));
+    t->sum[cell] += z;
+    t->count[cell]++;
+    return HM_OK;
+}
+
+/* The part of [0, count) that lies in a tile beginning at `start` (both counted from the same). */
+static void overlap(int64_t start, size_t count, int64_t *low, int64_t *high)
+{
+    *low = start > 0 ? start : 0;
+    *high = start + SIDE < (int64_t)count ? start + SIDE : (int64_t)count;
+}
+
+void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z)
+{
+    for (size_t k = 0; k < a->nx * a->ny; k++)
+        z[k] = NAN;
+    for (size_t k = 0; k < c->ntiles; k++) {
+        const struct tile *t = c->tile[k];
+        int64_t left = t->ti * SIDE - a->i0, bottom = t->tj * SIDE - a->j0;
+        int64_t i0, i1, j0, j1;
+        overlap(left, a->nx, &i0, &i1);
+        overlap(bottom, a->ny, &j0, &j1);
+        for (int64_t j = j0; j < j1; j++)
+            for (int64_t i = i0; i < i1; i++) {
+                size_t cell = (size_t)((j - bottom) * SIDE + (i - left));
+                if (t->count[cell])
+                    z[(size_t)j * a->nx + (size_t)i] = t->sum[cell] / (double)t->count[cell];
+            }
+    }
+}

@@ -1,0 +1,23 @@
+/* hm_cellmean: the mean height of the points in each cell of an anchored lattice. Layer 3.
+ *
+ * Memory is for the cells that hold points, in tiles, whatever the number of points; the extent
+ * need not be known before. The cell of a node is one spacing wide, the node in the middle; a point
+ * on a border between cells belongs to the upper or right one.
+ */
+#ifndef HM_CELLMEAN_H
+#define HM_CELLMEAN_H
+
+#include "hm_anchor.h"
+
+struct hm_cellmean;
+
+enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, struct hm_diag *d);
+void hm_cellmean_free(struct hm_cellmean *c);
+
+/* Add a point with a height. HM_EGEOM when it is so far off that cells have no numbers there. */
+enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z, struct hm_diag *d);
+
+/* Means of the nodes of `a`, row after row: z has a->nx * a->ny numbers, NaN where no point was. */
+void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z);
+
+#endif

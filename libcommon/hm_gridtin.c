@@ -221,3 +221,60 @@ enum hm_err hm_gridtin(double *z, const struct hm_anchor *a, const struct hm_tri
     free(r.in_gap);
     return err;
 }
+
+/* --- heights of vertices --- */
+
+struct shared {
+    int32_t vertex;
+    double z;
+};
+
+static int by_vertex_and_z(const void *a, const void *b)
+{
+    const struct shared *s = a, *t = b;
+    if (s->vertex != t->vertex)
+        return s->vertex < t->vertex ? -1 : 1;
+    return (s->z > t->z) - (s->z < t->z);
+}
+
+/* Means of the heights that share a vertex; sorted first, so that their order does not matter. */
+static void take_means(double *height, struct shared *s, size_t n)
+{
+    qsort(s, n, sizeof *s, by_vertex_and_z);
+    for (size_t k = 0, end; k < n; k = end) {
+        double sum = 0;
+        for (end = k; end < n && s[end].vertex == s[k].vertex; end++)
+            sum += s[end].z;
+        height[s[k].vertex] = sum / (double)(end - k);
+    }
+}
+
+enum hm_err hm_gridtin_heights(double **height, const struct hm_tri *t, const double *xyz, size_t n,
+                               struct hm_diag *d)
+{
+    size_t vertices = (size_t)hm_tri_vertices(t), nshared = 0;
+    bool *is_shared = hm_alloc0(vertices, sizeof *is_shared);
+    /* each merged point brings itself and at most one first point */
+    struct shared *s = hm_alloc(2 * hm_tri_duplicates(t), sizeof *s);
+    *height = hm_alloc(vertices, sizeof **height);
+    enum hm_err err = is_shared && s && *height ? HM_OK : hm_fail_memory(d);
+    for (size_t k = 0; k < n && !err; k++) {
+        int32_t v = hm_tri_of_input(t, k);
+        if (hm_tri_input(t, v) == (int64_t)k)
+            (*height)[v] = xyz[3 * k + 2];
+        else
+            is_shared[v] = true;
+    }
+    for (size_t k = 0; k < n && !err; k++)
+        if (is_shared[hm_tri_of_input(t, k)])
+            s[nshared++] = (struct shared){hm_tri_of_input(t, k), xyz[3 * k + 2]};
+    if (!err)
+        take_means(*height, s, nshared);
+    free(is_shared);
+    free(s);
+    if (err) {
+        free(*height);
+        *height = NULL;
+    }
+    return err;
+}

@@ -18,4 +18,9 @@ enum hm_err hm_gridtin(double *z, const struct hm_anchor *a, const struct hm_tri
                        const double *height, double gap, int threads,
                        struct hm_gridtin_count *count, struct hm_diag *d);
 
+/* Heights by vertex of a triangulation of n points x, y, z; the mean where points share a vertex.
+ * *height is malloc'd. */
+enum hm_err hm_gridtin_heights(double **height, const struct hm_tri *t, const double *xyz, size_t n,
+                               struct hm_diag *d);
+
 #endif

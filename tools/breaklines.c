@@ -1,0 +1,344 @@
+/* breaklines: lines where the slope of the ground passes a limit, from a grid, row by row. */
+#include "hm_attr.h"
+#include "hm_cli.h"
+#include "hm_contour.h"
+#include "hm_lineedit.h"
+#include "hm_num.h"
+#include "hm_polyline.h"
+#include "hm_simplify.h"
+#include "hm_slope.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct {
+    const char *limits;
+    int mode, saddle;
+    const char *slope_file;
+    double least; /* metres; < 0: by the spacing of the grid */
+    double simplify, resample, smooth;
+    bool resampled, simplified, smoothed;
+} cmd = {.limits = "5", .least = -1};
+
+static const struct hm_option options[] = {
+    {'s', "limit", "LIMIT[,...]", HM_OPT_TEXT, &cmd.limits,
+     "limit slopes in degrees, or in percent as 10% (default 5)", NULL, false, NULL},
+    {'m', "mode", "NAME", HM_OPT_CHOICE, &cmd.mode,
+     "interpolated lines or the border of the steep nodes (default interp)", "interp|node", false,
+     NULL},
+    {'x', "saddle", "NAME", HM_OPT_CHOICE, &cmd.saddle,
+     "vertices: the crossings of a cell, or their mean (default split)", "split|mean", false, NULL},
+    {'l', "min-length", "M", HM_OPT_NUMBER, &cmd.least,
+     "drop shorter lines (default 10 grid spacings)", NULL, false, NULL},
+    {'w', "smooth", "M", HM_OPT_POSITIVE, &cmd.smooth, "smooth; no vertex moves further than this",
+     NULL, false, &cmd.smoothed},
+    {'e', "simplify", "M", HM_OPT_POSITIVE, &cmd.simplify,
+     "leave out vertices; the line moves no further than this", NULL, false, &cmd.simplified},
+    {'r', "resample", "M", HM_OPT_POSITIVE, &cmd.resample, "put vertices at this distance", NULL,
+     false, &cmd.resampled},
+    {0, "slope", "FILE", HM_OPT_TEXT, &cmd.slope_file,
+     "take the slope from this grid, only the heights from the operands", NULL, true, NULL},
+    {0}};
+
+static const struct hm_program program = {
+    "breaklines", "lines where the slope passes a limit", "[file ...]", options, HM_GRID, false};
+
+struct tool;
+
+struct limit {
+    struct tool *tool;
+    char text[HM_NUM_CHARS + 2]; /* as the user wrote it */
+    double value;
+    bool percent;
+    struct hm_contour *contour;
+};
+
+struct tool {
+    struct hm_cli *cli;
+    struct limit *limit;
+    size_t nlimits;
+    double least;         /* metres */
+    struct hm_lines held; /* lines to be simplified, when all are known */
+    int64_t found, found_vertices, dropped, written, written_vertices;
+};
+
+/* A grid to read rows of: z or slope, picked from its bands. */
+struct source {
+    struct hm_reader *reader;
+    size_t bands, nx, band;
+    double *row;
+};
+
+static void *need(struct hm_cli *cli, size_t count, size_t size)
+{
+    void *p = hm_alloc0(count, size);
+    if (!p)
+        hm_cli_die(cli, "out of memory");
+    return p;
+}
+
+/* --- what the user asked --- */
+
+static void parse_limit(struct tool *t, const char *s, const char *end)
+{
+    struct limit *l = &t->limit[t->nlimits++];
+    l->tool = t;
+    const char *rest = hm_num_parse(s, end, &l->value);
+    l->percent = rest && rest < end && *rest == '%';
+    double most = l->percent ? INFINITY : 90;
+    if (!rest || rest + l->percent != end || !(l->value > 0 && l->value < most) ||
+        (size_t)(end - s) >= sizeof l->text)
+        hm_cli_die(t->cli,
+                   "-s: a limit is more than 0 and less than 90 degrees, or a percentage "
+                   "as 10%%; got '%.*s'",
+                   (int)(end - s), s);
+    memcpy(l->text, s, (size_t)(end - s));
+}
+
+static void parse_limits(struct tool *t)
+{
+    t->limit = need(t->cli, strlen(cmd.limits) + 1, sizeof *t->limit);
+    const char *s = cmd.limits, *end;
+    do {
+        end = s + strcspn(s, ",");
+        parse_limit(t, s, end);
+        s = end + 1;
+    } while (*end);
+}
+
+/* --- grids in --- */
+
+static enum hm_slope_unit unit_of(const struct hm_header *h, int column)
+{
+    char unit[16] = "";
+    const char *s = hm_header_get(h, "units");
+    for (int k = 0; s && k <= column; k++) {
+        s += strspn(s, " \t");
+        size_t n = strcspn(s, " \t");
+        size_t kept = n < sizeof unit - 1 ? n : sizeof unit - 1;
+        memcpy(unit, s, kept);
+        unit[kept] = 0;
+        s += n;
+    }
+    for (int u = HM_SLOPE_DEGREE; u <= HM_SLOPE_RADIAN; u++)
+        if (!strcmp(unit, hm_slope_unit_name((enum hm_slope_unit)u)))
+            return (enum hm_slope_unit)u;
+    return HM_SLOPE_DEGREE;
+}
+
+static struct source make_source(struct hm_cli *cli, struct hm_reader *r, const struct hm_header *h,
+                                 int column)
+{
+    struct source s = {r, h->nfields - 2, (size_t)h->lattice.nx, (size_t)column - 2, NULL};
+    s.row = need(cli, s.nx * s.bands, sizeof *s.row);
+    return s;
+}
+
+/* The next row into s->row; false behind the last. */
+static bool next_row(struct hm_cli *cli, struct source *s)
+{
+    struct hm_diag d = {0};
+    enum hm_err err = hm_reader_row(s->reader, s->row, &d);
+    if (err == HM_END)
+        return false;
+    hm_cli_check(cli, err, &d);
+    return true;
+}
+
+static void take_band(const struct source *s, size_t band, double *to)
+{
+    for (size_t i = 0; i < s->nx; i++)
+        to[i] = s->row[i * s->bands + band];
+}
+
+static bool same_lattice(const struct hm_lattice *a, const struct hm_lattice *b)
+{
+    double near = 1e-3 * fmin(fabs(a->dx), fabs(a->dy));
+    return a->nx == b->nx && a->ny == b->ny && fabs(a->x0 - b->x0) <= near &&
+           fabs(a->y0 - b->y0) <= near && fabs(a->dx - b->dx) * (double)a->nx <= near &&
+           fabs(a->dy - b->dy) * (double)a->ny <= near;
+}
+
+/* The slope: a band of the grid of heights, or the first grid of the file that the user named. */
+static struct source open_slope(struct hm_cli *cli, const struct hm_header *heights,
+                                enum hm_slope_unit *unit)
+{
+    struct hm_diag d = {0};
+    struct hm_reader *r = hm_cli_reader(cli);
+    if (!cmd.slope_file) {
+        int column = hm_header_field(heights, "slope");
+        if (column < 2)
+            hm_cli_die(cli,
+                       "%s: the grid has no band slope: pipe it through slope, or give --slope",
+                       hm_reader_name(r));
+        *unit = unit_of(heights, column);
+        return make_source(cli, r, heights, column);
+    }
+    hm_cli_check(cli, hm_reader_open(&r, cmd.slope_file, &d), &d);
+    struct hm_header h;
+    enum hm_err err = hm_reader_next(r, &h, &d);
+    hm_cli_check(cli, err, &d);
+    if (h.kind != HM_GRID)
+        hm_cli_die(cli, "%s: not a grid", hm_reader_name(r));
+    if (!same_lattice(&h.lattice, &heights->lattice))
+        hm_cli_die(cli, "%s: its nodes are not those of the grid of heights (size, origin or step)",
+                   hm_reader_name(r));
+    int column = hm_header_field(&h, "slope") < 2 ? 2 : hm_header_field(&h, "slope");
+    *unit = unit_of(&h, column);
+    struct source s = make_source(cli, r, &h, column);
+    hm_header_free(&h);
+    return s;
+}
+
+/* --- lines out --- */
+
+static enum hm_err write_line(struct tool *t, struct hm_line *line, struct hm_diag *d)
+{
+    struct hm_line out = *line;
+    enum hm_err err = HM_OK;
+    if (cmd.resampled)
+        err = hm_polyline_resample(line, cmd.resample, &out.xyz, &out.n, d);
+    char number[HM_NUM_CHARS];
+    if (!err) {
+        number[hm_num_print_fixed(number, hm_polyline_length(&out), 3)] = 0;
+        out.attrs = hm_attr_set(line->attrs, "length", number);
+        err = out.attrs ? hm_writer_line(hm_cli_writer(t->cli), &out, d) : hm_fail_memory(d);
+        free(out.attrs);
+        t->written++;
+        t->written_vertices += (int64_t)out.n;
+    }
+    if (cmd.resampled && out.xyz != line->xyz)
+        free(out.xyz);
+    return err;
+}
+
+/* A line as it was found: clean it, judge it, and let it out unless all are needed first. */
+static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_diag *d)
+{
+    const struct limit *l = arg;
+    struct tool *t = l->tool;
+    char attrs[sizeof l->text + 8] = "limit=";
+    strcat(attrs, l->text);
+    struct hm_line line = *found;
+    line.attrs = attrs;
+    hm_lineedit_tidy(&line);
+    t->found++;
+    t->found_vertices += (int64_t)line.n;
+    if (line.n < 2 || hm_polyline_length(&line) < t->least) {
+        t->dropped++;
+        return HM_OK;
+    }
+    enum hm_err err = cmd.smoothed ? hm_lineedit_smooth(&line, cmd.smooth, d) : HM_OK;
+    if (err)
+        return err;
+    return cmd.simplified ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
+}
+
+/* --- one grid --- */
+
+static void open_contours(struct tool *t, const struct hm_header *h, enum hm_slope_unit unit)
+{
+    for (size_t k = 0; k < t->nlimits; k++) {
+        struct limit *l = &t->limit[k];
+        struct hm_diag d = {0};
+        struct hm_contour_rule rule = {.mode = (enum hm_contour_mode)cmd.mode,
+                                       .saddle = (enum hm_contour_saddle)cmd.saddle,
+                                       .take = take_line,
+                                       .arg = l};
+        rule.limit =
+            hm_slope_convert(l->value, l->percent ? HM_SLOPE_PERCENT : HM_SLOPE_DEGREE, unit);
+        hm_cli_check(t->cli, hm_contour_new(&l->contour, &h->lattice, &rule, &d), &d);
+    }
+}
+
+static void trace_rows(struct tool *t, struct source *heights, struct source *slopes, int64_t ny)
+{
+    struct hm_cli *cli = t->cli;
+    size_t nx = heights->nx;
+    double *slope = need(cli, 2 * nx, sizeof *slope), *z = need(cli, 2 * nx, sizeof *z);
+    struct hm_diag d = {0};
+    for (int64_t j = 0; next_row(cli, heights); j++) {
+        size_t at = (j & 1) ? nx : 0; /* contours keep the row before */
+        take_band(heights, heights->band, z + at);
+        if (slopes->reader != heights->reader && !next_row(cli, slopes))
+            hm_cli_die(cli, "%s: too few rows", hm_reader_name(slopes->reader));
+        take_band(slopes->reader == heights->reader ? heights : slopes, slopes->band, slope + at);
+        for (size_t k = 0; k < t->nlimits; k++)
+            hm_cli_check(cli, hm_contour_row(t->limit[k].contour, slope + at, z + at, &d), &d);
+        hm_cli_progress(cli, "breaklines", (double)j / (double)ny);
+    }
+    for (size_t k = 0; k < t->nlimits; k++) {
+        hm_cli_check(cli, hm_contour_end(t->limit[k].contour, &d), &d);
+        hm_contour_free(t->limit[k].contour);
+    }
+    free(slope);
+    free(z);
+}
+
+static void do_grid(struct tool *t, const struct hm_header *h)
+{
+    int column = hm_header_field(h, "z");
+    if (column < 2)
+        hm_cli_die(t->cli, "%s: the grid has no band z", hm_reader_name(hm_cli_reader(t->cli)));
+    enum hm_slope_unit unit;
+    struct source heights = make_source(t->cli, hm_cli_reader(t->cli), h, column);
+    struct source slopes = open_slope(t->cli, h, &unit);
+    t->least = cmd.least >= 0 ? cmd.least : 10 * fmax(fabs(h->lattice.dx), fabs(h->lattice.dy));
+    open_contours(t, h, unit);
+    trace_rows(t, &heights, &slopes, h->lattice.ny);
+    if (slopes.reader != heights.reader) {
+        if (next_row(t->cli, &slopes))
+            hm_cli_die(t->cli, "%s: too many rows", hm_reader_name(slopes.reader));
+        hm_reader_close(slopes.reader);
+    }
+    free(heights.row);
+    free(slopes.row);
+}
+
+static void begin_output(struct hm_cli *cli)
+{
+    struct hm_diag d = {0};
+    struct hm_header h;
+    hm_cli_check(cli, hm_header_init(&h, HM_LINES, &d), &d);
+    hm_cli_make_header(cli, &h);
+    hm_cli_check(cli, hm_writer_begin(hm_cli_writer(cli), &h, &d), &d);
+    hm_header_free(&h);
+}
+
+static void finish_output(struct tool *t)
+{
+    struct hm_diag d = {0};
+    if (cmd.simplified) {
+        hm_cli_check(t->cli, hm_simplify(&t->held, cmd.simplify, &d), &d);
+        for (size_t k = 0; k < t->held.n; k++)
+            hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
+        hm_lines_free(&t->held);
+    }
+    hm_cli_check(t->cli, hm_writer_end(hm_cli_writer(t->cli), &d), &d);
+    hm_cli_say(t->cli,
+               "%lld lines found (%lld vertices), %lld dropped (shorter than %g m), "
+               "%lld written (%lld vertices)",
+               (long long)t->found, (long long)t->found_vertices, (long long)t->dropped, t->least,
+               (long long)t->written, (long long)t->written_vertices);
+}
+
+int main(int argc, char **argv)
+{
+    struct tool t = {.cli = hm_cli_start(&program, argc, argv)};
+    parse_limits(&t);
+    struct hm_header h;
+    bool any = false;
+    while (hm_cli_next(t.cli, &h)) {
+        if (!any)
+            begin_output(t.cli);
+        any = true;
+        do_grid(&t, &h);
+        hm_header_free(&h);
+    }
+    if (!any)
+        hm_cli_die(t.cli, "no grid in the input");
+    finish_output(&t);
+    free(t.limit);
+    return hm_cli_finish(t.cli);
+}

@@ -1,0 +1,229 @@
+/* bsmesh: rough banks, breaklines and terrain → a regular mesh a surface, on B-spline surfaces. */
+#include "hm_cli.h"
+#include "hm_face.h"
+#include "hm_regular.h"
+#include "hm_rough.h"
+#include "hm_snap.h"
+#include "hm_terrain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static struct {
+    const char *control, *elements; /* ALONG/ACROSS, as given */
+    double snap;
+    bool has_snap;
+    bool quads;
+    int degree; /* index of the choice: degree - 1 */
+    int iterations;
+    double gap;
+    const char *surface;
+} cmd = {.degree = 1, .iterations = 5};
+
+static const struct hm_option options[] = {
+    {'c', "control", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.control,
+     "distance of control points, m; across may be fractions as 0,.1,.3,.7,.9,1", NULL, false,
+     NULL},
+    {'n', "snap", "M", HM_OPT_NUMBER, &cmd.snap,
+     "how far a control point may move to a breakline (default ALONG; 0: none)", NULL, false,
+     &cmd.has_snap},
+    {'e', "elements", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.elements, "length of the elements, m", NULL,
+     false, NULL},
+    {'Q', "quads", NULL, HM_OPT_FLAG, &cmd.quads, "quadrilaterals instead of triangles", NULL,
+     false, NULL},
+    {'k', "degree", "K", HM_OPT_CHOICE, &cmd.degree, "of the surface: 1, 2 or 3 (default 2)",
+     "1|2|3", false, NULL},
+    {'i', "iterations", "N", HM_OPT_NATURAL, &cmd.iterations,
+     "by which heights are dragged to the terrain (default 5; fewer smooth more)", NULL, false,
+     NULL},
+    {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
+     "triangles of measurements with a longer edge know no height (default 5 ALONG)", NULL, false,
+     NULL},
+    {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface, "only this one (default: all)", NULL, false,
+     NULL},
+    {0}};
+
+static const struct hm_program program = {
+    .name = "bsmesh",
+    .purpose = "rough banks, breaklines and terrain → regular meshes on B-spline surfaces",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_LINES | HM_POINTS | HM_GRID,
+};
+
+/* What all surfaces share. */
+struct job {
+    struct hm_inputs in;
+    struct hm_rough *rough;
+    size_t nrough;
+    struct hm_face *face;
+    size_t nfaces;
+    struct hm_breaklines *breaklines;
+    struct hm_terrain *terrain;
+    struct hm_regular_how how;
+};
+
+static struct hm_rough_size read_sizes(struct hm_cli *cli)
+{
+    struct hm_rough_size size = {.snap = -1};
+    struct hm_diag d = {0};
+    if (cmd.control)
+        hm_cli_check(cli, hm_rough_parse_control(cmd.control, &size, &d), &d);
+    if (cmd.elements)
+        hm_cli_check(cli, hm_rough_parse_elements(cmd.elements, &size, &d), &d);
+    if (cmd.has_snap && cmd.snap < 0)
+        hm_cli_die(cli, "--snap must not be negative");
+    if (cmd.has_snap)
+        size.snap = cmd.snap;
+    return size;
+}
+
+static void read_lines(struct hm_cli *cli, struct job *job)
+{
+    struct hm_rough_size size = read_sizes(cli);
+    struct hm_diag d = {0};
+    const struct hm_inputs *in = &job->in;
+    hm_cli_check(cli, hm_rough_collect(in->lines, in->nlines, &size, &job->rough, &job->nrough, &d),
+                 &d);
+    if (job->nrough == 0)
+        hm_cli_die(cli, "no rough banks among the lines: give them as lines with the attributes "
+                        "surface=NAME side=left and surface=NAME side=right");
+    hm_cli_check(cli,
+                 hm_face_collect(in->lines, in->nlines, job->rough, job->nrough, &job->face,
+                                 &job->nfaces, &d),
+                 &d);
+    hm_cli_check(cli, hm_breaklines_build(&job->breaklines, in->lines, in->nlines, &d), &d);
+    bool found = !cmd.surface;
+    for (size_t k = 0; k < job->nrough; k++)
+        found = found || !strcmp(job->rough[k].name, cmd.surface);
+    if (!found)
+        hm_cli_die(cli, "there is no surface '%s' among the lines", cmd.surface);
+}
+
+static bool is_wanted(const struct hm_rough *r)
+{
+    return !cmd.surface || !strcmp(cmd.surface, r->name);
+}
+
+/* Measurements first, since they know more than a grid made of them. */
+static void build_terrain(struct hm_cli *cli, struct job *job)
+{
+    struct hm_diag d = {0};
+    double gap = cmd.gap;
+    for (size_t k = 0; k < job->nrough && !(cmd.gap > 0); k++)
+        if (is_wanted(&job->rough[k]))
+            gap = fmax(gap, 5 * job->rough[k].size.along);
+    if (job->in.npoints + job->in.ngrids == 0)
+        hm_cli_die(cli, "no terrain: measurements (points) or a grid are needed for the heights");
+    hm_cli_check(cli, hm_terrain_new(&job->terrain, &d), &d);
+    for (size_t k = 0; k < job->in.npoints; k++)
+        hm_cli_check(
+            cli, hm_terrain_add_points(job->terrain, &job->in.points[k], gap, job->how.threads, &d),
+            &d);
+    for (size_t k = 0; k < job->in.ngrids; k++)
+        hm_cli_check(cli, hm_terrain_add_grid(job->terrain, &job->in.grid[k], &d), &d);
+}
+
+static void tell(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+                 const struct hm_regular *s, const struct hm_face_cut *cut,
+                 const struct hm_mesh *mesh)
+{
+    size_t n = s->surface.n, m = s->surface.m;
+    if (hm_breaklines_count(job->breaklines) == 0)
+        hm_cli_say(cli, "%s: no breaklines to move the banks to", rough->name);
+    else if (s->moved > 0)
+        hm_cli_say(cli,
+                   "%s: %zu of %zu control points on the banks moved to a breakline, %zu not; the "
+                   "largest move is %.2f m, at %.10g %.10g",
+                   rough->name, s->moved, 2 * n, 2 * n - s->moved, s->largest, s->largest_at[0],
+                   s->largest_at[1]);
+    else
+        hm_cli_say(cli, "%s: no control point of %zu found a breakline", rough->name, 2 * n);
+    hm_cli_mended(cli, (int64_t)s->unknown,
+                  "%s: %zu of %zu control points without terrain take z from those around them, "
+                  "the first at %.10g %.10g",
+                  rough->name, s->unknown, n * m, s->unknown_at[0], s->unknown_at[1]);
+    hm_cli_mended(cli, s->concave,
+                  "%s: %lld cells that are not strictly convex were cut into triangles",
+                  rough->name, (long long)s->concave);
+    if (cut->dropped > 0)
+        hm_cli_say(cli, "%s: %lld elements outside the face dropped", rough->name,
+                   (long long)cut->dropped);
+    hm_cli_mended(cli, cut->pinched, "%s: %lld more where elements hung together in one node only",
+                  rough->name, (long long)cut->pinched);
+    hm_cli_say(cli, "%s: %zu by %zu control points, %zu nodes, %zu elements", rough->name, n, m,
+               mesh->nnodes, mesh->nelems);
+}
+
+/* name, role, and the names of all surfaces, of which the k-th owns the nodes with owner k. */
+static void make_header(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+                        struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    char *owners = hm_alloc0(job->nrough, HM_ROUGH_NAME + 1), *end = owners;
+    if (!owners)
+        hm_cli_die(cli, "out of memory");
+    for (size_t k = 0; k < job->nrough; k++)
+        end += sprintf(end, "%s%s", k ? " " : "", job->rough[k].name);
+    hm_cli_check(cli, hm_header_init(h, HM_MESH, &d), &d);
+    hm_cli_make_header(cli, h);
+    hm_cli_check(cli, hm_header_set(h, "name", rough->name, &d), &d);
+    hm_cli_check(cli, hm_header_set(h, "role", "regular", &d), &d);
+    hm_cli_check(cli, hm_header_set(h, "owners", owners, &d), &d);
+    free(owners);
+}
+
+static void mesh_surface(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+                         struct hm_mesh *mesh)
+{
+    struct hm_diag d = {0};
+    struct hm_regular s;
+    struct hm_face_cut cut;
+    hm_cli_check(cli, hm_regular_surface(&s, rough, job->breaklines, job->terrain, &job->how, &d),
+                 &d);
+    hm_cli_check(cli, hm_regular_mesh(&s, rough, &job->how, mesh, &d), &d);
+    hm_cli_check(cli, hm_face_apply(mesh, rough, job->face, job->nfaces, &cut, &d), &d);
+    hm_cli_check(cli, hm_regular_flag_border(mesh, &d), &d);
+    tell(cli, job, rough, &s, &cut, mesh);
+    make_header(cli, job, rough, &mesh->header);
+    hm_regular_free(&s);
+}
+
+/* Nothing is written before the last surface has succeeded: what comes out is whole. */
+static void mesh_all(struct hm_cli *cli, const struct job *job)
+{
+    struct hm_diag d = {0};
+    struct hm_mesh *mesh = hm_alloc0(job->nrough, sizeof *mesh);
+    if (!mesh)
+        hm_cli_die(cli, "out of memory");
+    for (size_t k = 0; k < job->nrough; k++)
+        if (is_wanted(&job->rough[k]))
+            mesh_surface(cli, job, &job->rough[k], &mesh[k]);
+    for (size_t k = 0; k < job->nrough; k++) {
+        if (is_wanted(&job->rough[k]))
+            hm_cli_check(cli, hm_mesh_write(&mesh[k], hm_cli_writer(cli), &d), &d);
+        hm_mesh_free(&mesh[k]);
+    }
+    free(mesh);
+}
+
+int main(int argc, char **argv)
+{
+    struct hm_cli *cli = hm_cli_start(&program, argc, argv);
+    struct job job = {.how = {.degree = cmd.degree + 1,
+                              .iterations = cmd.iterations,
+                              .quads = cmd.quads,
+                              .threads = hm_cli_threads(cli)}};
+    hm_cli_read_all(cli, &job.in);
+    read_lines(cli, &job);
+    build_terrain(cli, &job);
+    mesh_all(cli, &job);
+    hm_terrain_free(job.terrain);
+    hm_breaklines_free(job.breaklines);
+    free(job.face);
+    hm_rough_free(job.rough, job.nrough);
+    hm_inputs_free(&job.in);
+    return hm_cli_finish(cli);
+}

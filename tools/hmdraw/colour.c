@@ -44,9 +44,9 @@ struct rgb ramp_colour(enum ramp ramp, double t)
 
 struct rgb owner_colour(int32_t owner)
 {
-    static const struct rgb palette[] = {{0.34, 0.71, 0.91}, {0.90, 0.62, 0.00}, {0.00, 0.62, 0.45},
-                                         {0.80, 0.47, 0.65}, {0.94, 0.89, 0.26}, {0.00, 0.45, 0.70},
-                                         {0.84, 0.37, 0.00}};
+    static const struct rgb palette[] = {
+        {0.93, 0.56, 0.10}, {0.80, 0.40, 0.65}, {0.00, 0.62, 0.45}, {0.34, 0.71, 0.91},
+        {0.94, 0.89, 0.26}, {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}};
     enum { COLOURS = sizeof palette / sizeof *palette };
     return palette[(owner - 1) % COLOURS];
 }

@@ -1,0 +1,104 @@
+#include "hm_json.h"
+
+#include "hm_num.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void put(struct hm_json *j, const char *bytes, size_t n)
+{
+    if (!j->err)
+        j->err = hm_writer_bytes(j->w, bytes, n, &j->d);
+}
+
+static void put_string(struct hm_json *j, const char *text)
+{
+    put(j, "\"", 1);
+    for (; *text; text++) {
+        unsigned char c = (unsigned char)*text;
+        char escape[8];
+        if (c == '"' || c == '\\') {
+            escape[0] = '\\';
+            escape[1] = (char)c;
+            put(j, escape, 2);
+        } else if (c < 0x20) {
+            put(j, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", (unsigned)c));
+        } else {
+            put(j, text, 1);
+        }
+    }
+    put(j, "\"", 1);
+}
+
+static void new_line(struct hm_json *j)
+{
+    put(j, "\n", 1);
+    for (int i = 0; i < j->depth; i++)
+        put(j, "  ", 2);
+}
+
+/* What stands before a value: comma, a line of its own, its name. */
+static void lead(struct hm_json *j, const char *name)
+{
+    if (j->begun)
+        put(j, ",", 1);
+    if (j->depth > 0)
+        new_line(j);
+    j->begun = true;
+    if (name) {
+        put_string(j, name);
+        put(j, ": ", 2);
+    }
+}
+
+void hm_json_open(struct hm_json *j, const char *name, char bracket)
+{
+    lead(j, name);
+    put(j, &bracket, 1);
+    j->depth++;
+    j->begun = false;
+}
+
+void hm_json_close(struct hm_json *j, char bracket)
+{
+    j->depth--;
+    if (j->begun)
+        new_line(j);
+    put(j, &bracket, 1);
+    j->begun = true;
+    if (j->depth == 0)
+        put(j, "\n", 1);
+}
+
+void hm_json_number(struct hm_json *j, const char *name, double v)
+{
+    char text[HM_NUM_CHARS];
+    lead(j, name);
+    if (isfinite(v))
+        put(j, text, hm_num_print(text, v));
+    else
+        put(j, "null", 4);
+}
+
+void hm_json_integer(struct hm_json *j, const char *name, int64_t v)
+{
+    char text[24];
+    lead(j, name);
+    put(j, text, (size_t)snprintf(text, sizeof text, "%lld", (long long)v));
+}
+
+void hm_json_bool(struct hm_json *j, const char *name, bool v)
+{
+    lead(j, name);
+    put(j, v ? "true" : "false", v ? 4 : 5);
+}
+
+void hm_json_text(struct hm_json *j, const char *name, const char *text)
+{
+    lead(j, name);
+    if (text)
+        put_string(j, text);
+    else
+        put(j, "null", 4);
+}

@@ -1,0 +1,306 @@
+/* quality: mesh + measurements → report, verdict, exit code.
+ *
+ * The residual of a measurement is the height of the mesh there minus the measured height. The
+ * measurements stream through when the mesh comes before them; memory does not grow with their
+ * number then.
+ */
+#include "hm_cli.h"
+#include "hm_locate.h"
+#include "hm_num.h"
+#include "hm_quality.h"
+#include "hm_thread.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_SAMPLES = 16, BATCH = 65536, CHUNK = 1024 };
+
+static struct {
+    const char *samples, *thresholds, *criteria, *residuals;
+    int seed;
+    bool json;
+} cmd = {.samples = "1,5,10,30", .thresholds = "0.10,0.30", .seed = 1};
+
+static const struct hm_option options[] = {
+    {'s', "sample", "LIST", HM_OPT_TEXT, &cmd.samples,
+     "samples in percent (default 1,5,10,30; all points come last)", .silent = true},
+    {'S', "seed", "N", HM_OPT_NATURAL, &cmd.seed, "choose other samples (default 1)",
+     .silent = true},
+    {'t', "thresholds", "G,Y", HM_OPT_TEXT, &cmd.thresholds,
+     "largest green and yellow residual, m (default 0.10,0.30)", .silent = false},
+    {'c', "check", "CRITERIA", HM_OPT_TEXT, &cmd.criteria,
+     "exit 1 unless all are met: 'rmse<=0.15,red<=5%,minangle>=20,valid'", .silent = true},
+    {'J', "json", NULL, HM_OPT_FLAG, &cmd.json, "report for programs", .silent = true},
+    {'r', "residuals", "FILE", HM_OPT_TEXT, &cmd.residuals,
+     "write points x y z residual class there", .silent = true},
+    {0}};
+
+static const struct hm_program program = {
+    .name = "quality",
+    .purpose = "how well a mesh fits measurements, and how good its elements are",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_POINTS | HM_MESH};
+
+/* All that the run holds. */
+struct run {
+    struct hm_cli *cli;
+    struct hm_mesh mesh;
+    struct hm_locate *locate; /* NULL until the mesh is there */
+    struct hm_points *held;   /* measurements that came before it */
+    size_t nheld, held_cap;
+    struct hm_quality quality;
+    struct hm_criterion *criteria;
+    size_t ncriteria;
+};
+
+/* The residual stream. In reach of the exit handler, so that a failure anywhere leaves no file. */
+static struct hm_writer *residuals;
+
+static void abandon_residuals(void)
+{
+    hm_writer_abandon(residuals);
+}
+
+/* --- what the user asked for --- */
+
+/* Numbers with commas between, each within 0 .. most; how many. */
+static size_t parse_list(struct hm_cli *cli, const char *option, const char *text, double most,
+                         double *list, size_t room)
+{
+    const char *p = text, *end = text + strlen(text);
+    for (size_t n = 0; n < room; p++) {
+        p = hm_num_parse(p, end, &list[n]);
+        if (!p || !(list[n] >= 0 && list[n] <= most) || (p < end && *p != ','))
+            break;
+        n++;
+        if (p == end)
+            return n;
+    }
+    hm_cli_die(cli, "--%s: '%s' is not a list of at most %zu numbers from 0 to %g", option, text,
+               room, most);
+}
+
+static void prepare(struct run *run)
+{
+    double percent[MOST_SAMPLES], thresholds[2];
+    struct hm_diag d = {0};
+    size_t n = parse_list(run->cli, "sample", cmd.samples, 100, percent, MOST_SAMPLES);
+    if (parse_list(run->cli, "thresholds", cmd.thresholds, 1e6, thresholds, 2) != 2 ||
+        thresholds[0] > thresholds[1])
+        hm_cli_die(run->cli, "--thresholds: '%s' is not two ascending numbers", cmd.thresholds);
+    if (cmd.residuals && !strcmp(cmd.residuals, "-"))
+        hm_cli_die(run->cli, "--residuals: needs a file, standard output has the report");
+    if (cmd.criteria)
+        hm_cli_check(run->cli, hm_criteria_parse(cmd.criteria, &run->criteria, &run->ncriteria, &d),
+                     &d);
+    hm_cli_check(run->cli, hm_quality_init(&run->quality, percent, n, cmd.seed, thresholds, &d),
+                 &d);
+}
+
+/* --- measurements against the mesh --- */
+
+static void begin_residuals(struct run *run)
+{
+    struct hm_diag d = {0};
+    struct hm_header h;
+    if (residuals)
+        return;
+    enum hm_err err = hm_header_init(&h, HM_POINTS, &d);
+    hm_cli_make_header(run->cli, &h);
+    if (!err)
+        err = hm_header_set(&h, "units", "m m m", &d);
+    if (!err)
+        err = hm_header_add_field(&h, "residual", "m", &d);
+    if (!err)
+        err = hm_header_add_field(&h, "class", "1", &d);
+    if (!err)
+        err = hm_writer_open(&residuals, cmd.residuals, hm_cli_format(run->cli), &d);
+    if (!err)
+        err = hm_writer_begin(residuals, &h, &d);
+    hm_header_free(&h);
+    hm_cli_check(run->cli, err, &d);
+}
+
+/* A batch of measurements: where each lies and how high the mesh is there. */
+struct batch {
+    const struct run *run;
+    const double *rows;
+    size_t n, stride;
+    bool on_mesh[BATCH];
+    double height[BATCH];
+};
+
+static void locate_chunk(void *arg, size_t chunk)
+{
+    struct batch *b = arg;
+    const struct hm_mesh *mesh = &b->run->mesh;
+    size_t end = (chunk + 1) * CHUNK < b->n ? (chunk + 1) * CHUNK : b->n;
+    for (size_t i = chunk * CHUNK; i < end; i++) {
+        const double *p = b->rows + i * b->stride;
+        int64_t e = hm_locate_element(b->run->locate, p[0], p[1]);
+        b->on_mesh[i] = e >= 0;
+        b->height[i] = e < 0 ? NAN : hm_elem_height(mesh, &mesh->elem[e], p[0], p[1]);
+    }
+}
+
+static void count_point(struct hm_quality *q, const double *p, bool on_mesh, double residual)
+{
+    int64_t ordinal = q->points++;
+    if (isnan(p[2]))
+        q->heightless++;
+    else if (!on_mesh)
+        q->outside++;
+    else if (!isfinite(residual))
+        q->unknown++;
+    else
+        hm_quality_add(q, (struct hm_residual){p[0], p[1], residual}, ordinal);
+}
+
+static void compare(struct run *run, struct batch *b)
+{
+    struct hm_diag d = {0};
+    hm_thread_for(hm_cli_threads(run->cli), (b->n + CHUNK - 1) / CHUNK, locate_chunk, b);
+    for (size_t i = 0; i < b->n; i++) {
+        const double *p = b->rows + i * b->stride;
+        double residual = b->height[i] - p[2];
+        count_point(&run->quality, p, b->on_mesh[i], residual);
+        if (cmd.residuals) {
+            int class = hm_residual_classify(residual, run->quality.thresholds);
+            double row[5] = {p[0], p[1], p[2], residual, class};
+            hm_cli_check(run->cli, hm_writer_points(residuals, row, 1, &d), &d);
+        }
+    }
+}
+
+static struct batch *new_batch(struct run *run, size_t stride)
+{
+    struct batch *b = hm_alloc(1, sizeof *b);
+    if (!b)
+        hm_cli_die(run->cli, "out of memory");
+    b->run = run;
+    b->stride = stride;
+    if (cmd.residuals)
+        begin_residuals(run);
+    return b;
+}
+
+static void compare_held(struct run *run)
+{
+    for (size_t k = 0; k < run->nheld; k++) {
+        struct hm_points *p = &run->held[k];
+        struct batch *b = new_batch(run, p->stride);
+        for (size_t i = 0; i < p->n; i += BATCH) {
+            b->rows = p->v + i * p->stride;
+            b->n = p->n - i < BATCH ? p->n - i : BATCH;
+            compare(run, b);
+        }
+        free(b);
+        hm_points_free(p);
+    }
+    run->nheld = 0;
+}
+
+/* --- input --- */
+
+static void stream_points(struct run *run, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    struct batch *b = new_batch(run, h->nfields);
+    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
+    if (!rows)
+        hm_cli_die(run->cli, "out of memory");
+    b->rows = rows;
+    enum hm_err err;
+    while (!(err = hm_reader_points(hm_cli_reader(run->cli), rows, BATCH, &b->n, &d)))
+        compare(run, b);
+    hm_cli_check(run->cli, err, &d);
+    free(rows);
+    free(b);
+    hm_header_free(h);
+}
+
+static void hold_points(struct run *run, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    if (!hm_grow(&run->held, &run->held_cap, run->nheld + 1, sizeof *run->held))
+        hm_cli_die(run->cli, "out of memory");
+    struct hm_points *p = &run->held[run->nheld++];
+    *p = (struct hm_points){0};
+    hm_cli_check(run->cli, hm_points_read(p, hm_cli_reader(run->cli), h, &d), &d);
+}
+
+static void take_mesh(struct run *run, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    const char *name = hm_reader_name(hm_cli_reader(run->cli));
+    if (run->locate)
+        hm_cli_die(run->cli, "%s: a second mesh; quality judges one at a time", name);
+    enum hm_err err = hm_mesh_read(&run->mesh, hm_cli_reader(run->cli), h, &d);
+    if (!err)
+        err = hm_locate_build(&run->locate, &run->mesh, &d);
+    hm_cli_check(run->cli, err, &d);
+    compare_held(run);
+}
+
+static void read_inputs(struct run *run)
+{
+    struct hm_header h;
+    while (hm_cli_next(run->cli, &h)) {
+        run->quality.surveyed |= h.kind == HM_POINTS;
+        if (h.kind == HM_MESH)
+            take_mesh(run, &h);
+        else if (run->locate)
+            stream_points(run, &h);
+        else
+            hold_points(run, &h);
+    }
+    if (!run->locate)
+        hm_cli_die(run->cli, "no mesh among the inputs");
+    if (!run->quality.surveyed)
+        hm_cli_die(run->cli, "no points among the inputs");
+    if (!run->quality.nworst)
+        hm_cli_say(run->cli, "no measurement with a height lies on the mesh");
+}
+
+/* --- output --- */
+
+static bool report(struct run *run)
+{
+    struct hm_diag d = {0};
+    struct hm_quality *q = &run->quality;
+    q->mesh = &run->mesh;
+    enum hm_err err = hm_meshstat_run(&run->mesh, &q->shape, &d);
+    if (!err)
+        err = hm_meshcheck_run(&run->mesh, &q->check, &d);
+    hm_cli_check(run->cli, err, &d);
+    if (residuals) {
+        err = hm_writer_end(residuals, &d);
+        if (!err)
+            err = hm_writer_close(&residuals, &d);
+        hm_cli_check(run->cli, err, &d);
+    }
+    bool good = hm_quality_judge(q, run->criteria, run->ncriteria);
+    struct hm_writer *w = hm_cli_writer(run->cli);
+    err = cmd.json ? hm_quality_json(q, run->criteria, run->ncriteria, w, &d)
+                   : hm_quality_text(q, run->criteria, run->ncriteria, w, &d);
+    hm_cli_check(run->cli, err, &d);
+    return good;
+}
+
+int main(int argc, char **argv)
+{
+    struct run run = {.cli = hm_cli_start(&program, argc, argv)};
+    atexit(abandon_residuals);
+    prepare(&run);
+    read_inputs(&run);
+    bool good = report(&run);
+    hm_locate_free(run.locate);
+    hm_mesh_free(&run.mesh);
+    hm_quality_free(&run.quality);
+    free(run.held);
+    free(run.criteria);
+    int status = hm_cli_finish(run.cli);
+    return status ? status : good ? 0 : 1;
+}

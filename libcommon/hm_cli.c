@@ -415,7 +415,15 @@ bool hm_cli_verbose(const struct hm_cli *cli)
 
 struct hm_format hm_cli_format(const struct hm_cli *cli)
 {
-    return (struct hm_format){.binary = cli->binary, .decimals = cli->decimals};
+    return (struct hm_format){
+        .binary = cli->binary, .single = cli->single, .decimals = cli->decimals};
+}
+
+void hm_cli_set_format(struct hm_cli *cli, struct hm_format format)
+{
+    cli->binary = format.binary;
+    cli->single = format.single;
+    cli->decimals = format.decimals;
 }
 
 const char *hm_cli_output(const struct hm_cli *cli)

@@ -12,7 +12,7 @@ struct hm_cli {
     size_t noperands;
 
     const char *output;
-    bool binary, quiet, verbose, strict, keep;
+    bool binary, single, quiet, verbose, strict, keep;
     int decimals, threads;
 
     size_t opened; /* operands opened so far */

@@ -1,0 +1,183 @@
+/* hm_lengths: see hm_lengths.h. */
+#include "hm_lengths.h"
+#include "hm_pred.h"
+#include "hm_smooth.h"
+#include "hm_subdivide.h"
+
+#include <math.h>
+
+/* Coarsening and refinement agree after two or three turns; the cap is for bounds so near to each
+ * other that they never would. */
+enum { MOST_TURNS = 12, FEW = 50 };
+
+/* Angle (degrees) below which smoothing must not make a triangle worse. */
+#define GOOD_ANGLE 30.0
+
+struct work {
+    struct hm_domain *dom;
+    const struct hm_lengths_options *o;
+    struct hm_lengths_left *left;
+};
+
+typedef enum hm_err (*round_fn)(struct hm_domain *dom, const struct hm_lengths *l, int threads,
+                                int64_t *n, struct hm_diag *d);
+
+static enum hm_err watch(const struct work *w, const char *what, struct hm_diag *d)
+{
+    if (!w->o->watch)
+        return HM_OK;
+    enum hm_err err = hm_domain_triangulate(w->dom, w->o->threads, d);
+    return err ? err : w->o->watch(w->o->arg, w->dom, what, d);
+}
+
+static enum hm_err go(struct work *w, round_fn round, const char *what, int64_t *n,
+                      struct hm_diag *d)
+{
+    enum hm_err err = round(w->dom, &w->o->bounds, w->o->threads, n, d);
+    if (err || *n == 0)
+        return err;
+    w->left->rounds++;
+    return watch(w, what, d);
+}
+
+/* Clear the fixed edges; then whole triangles while they are many, and single edges, until there is
+ * nothing left; *n: changes. */
+static enum hm_err coarsen(struct work *w, int64_t *n, struct hm_diag *d)
+{
+    int64_t near, triangles, edges;
+    enum hm_err err = HM_OK;
+    *n = 0;
+    do {
+        err = go(w, hm_coarsen_clear, "clear fixed edges", &near, d);
+        *n += err ? 0 : near;
+        do {
+            if (!err)
+                err = go(w, hm_coarsen_triangles, "coarsen triangles", &triangles, d);
+            *n += err ? 0 : triangles;
+        } while (!err && triangles > (int64_t)w->dom->nnodes / FEW);
+        if (!err)
+            err = go(w, hm_coarsen_edges, "coarsen edges", &edges, d);
+        *n += err ? 0 : edges;
+    } while (!err && triangles + edges > 0);
+    return err;
+}
+
+static enum hm_err refine(struct work *w, int64_t *n, struct hm_diag *d)
+{
+    int64_t triangles, edges;
+    enum hm_err err = HM_OK;
+    *n = 0;
+    do {
+        err = go(w, hm_subdivide_triangles, "refine triangles", &triangles, d);
+        if (!err)
+            err = go(w, hm_subdivide_edges, "refine edges", &edges, d);
+        *n += err ? 0 : triangles + edges;
+    } while (!err && triangles + edges > 0);
+    return err;
+}
+
+static enum hm_err take_turns(struct work *w, struct hm_diag *d)
+{
+    int64_t coarser = 1, finer = 1;
+    for (int turn = 0; turn < MOST_TURNS && coarser + finer > 0; turn++) {
+        enum hm_err err = coarsen(w, &coarser, d);
+        if (!err)
+            err = refine(w, &finer, d);
+        if (err)
+            return err;
+        if (turn > 0 && finer == 0)
+            break;
+    }
+    return HM_OK;
+}
+
+static enum hm_err smooth(struct work *w, struct hm_diag *d)
+{
+    for (int pass = 0; pass < w->o->smooth; pass++) {
+        int64_t moved;
+        enum hm_err err =
+            hm_smooth_pass(w->dom, &w->o->bounds, GOOD_ANGLE, w->o->threads, &moved, d);
+        if (!err)
+            err = watch(w, "smooth", d);
+        if (err || moved == 0)
+            return err;
+    }
+    return HM_OK;
+}
+
+/* Refuse what could only end when memory does: about one node for each 0.43 most². */
+static enum hm_err check_size(const struct work *w, struct hm_diag *d)
+{
+    double area = 0, most = w->o->bounds.most;
+    const struct hm_domain *dom = w->dom;
+    for (int32_t tri = 0; tri < hm_tri_triangles(dom->tri); tri++)
+        if (hm_domain_is_inside(dom, tri))
+            area += hm_area2(hm_tri_xy(dom->tri, hm_tri_org(dom->tri, 3 * tri)),
+                             hm_tri_xy(dom->tri, hm_tri_dest(dom->tri, 3 * tri)),
+                             hm_tri_xy(dom->tri, hm_tri_apex(dom->tri, 3 * tri))) /
+                    2;
+    double nodes = area / (most * most) / 0.43;
+    if (nodes > (double)(INT32_MAX / 6))
+        return hm_fail(d, HM_EARG, "a maximum edge of %g m makes about %.2g nodes on %.3g m2", most,
+                       nodes, area);
+    return HM_OK;
+}
+
+/* --- what is left --- */
+
+static void judge(const struct work *w, int32_t e, double length2)
+{
+    const struct hm_domain *dom = w->dom;
+    const struct hm_lengths *l = &w->o->bounds;
+    struct hm_lengths_left *left = w->left;
+    int32_t org = dom->node_of[hm_tri_org(dom->tri, e)],
+            dest = dom->node_of[hm_tri_dest(dom->tri, e)];
+    bool is_short = length2<l->least * l->least, is_long = length2> l->most * l->most;
+    if (hm_tri_marks(dom->tri, e)) {
+        left->fixed_short += is_short;
+        left->fixed_long += is_long;
+        return;
+    }
+    bool fixed = dom->node[org].flags & dom->node[dest].flags & HM_NODE_FIXED;
+    left->too_short += is_short;
+    left->too_short_fixed += is_short && fixed;
+    left->too_long += is_long;
+    left->too_long_regular += is_long && (dom->node[org].owner > 0 || dom->node[dest].owner > 0);
+}
+
+static enum hm_err count_left(const struct work *w, struct hm_diag *d)
+{
+    struct hm_domain *dom = w->dom;
+    enum hm_err err = hm_domain_triangulate(dom, w->o->threads, d);
+    for (int32_t e = 0; !err && e < 3 * hm_tri_triangles(dom->tri); e++) {
+        int32_t twin = hm_tri_twin(dom->tri, e);
+        if (!hm_domain_is_inside(dom, e / 3) || (hm_domain_is_inside(dom, twin / 3) && twin < e))
+            continue;
+        judge(w, e,
+              hm_node_distance2(&dom->node[dom->node_of[hm_tri_org(dom->tri, e)]],
+                                &dom->node[dom->node_of[hm_tri_dest(dom->tri, e)]]));
+    }
+    return err;
+}
+
+enum hm_err hm_lengths_reach(struct hm_domain *dom, const struct hm_lengths_options *o,
+                             struct hm_lengths_left *left, struct hm_diag *d)
+{
+    struct work w = {dom, o, left};
+    *left = (struct hm_lengths_left){0};
+    if (!(o->bounds.least > 0 && o->bounds.most > o->bounds.least))
+        return hm_fail(d, HM_EARG, "minimum edge %g m, maximum edge %g m: the maximum must be more",
+                       o->bounds.least, o->bounds.most);
+    enum hm_err err = hm_domain_triangulate(dom, o->threads, d);
+    if (!err)
+        err = check_size(&w, d);
+    if (!err)
+        err = take_turns(&w, d);
+    if (!err)
+        err = smooth(&w, d);
+    if (!err && o->smooth > 0) /* smoothing changes which nodes are neighbours */
+        err = take_turns(&w, d);
+    if (!err)
+        err = count_left(&w, d);
+    return err;
+}

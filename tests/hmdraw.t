@@ -181,6 +181,8 @@ must_fail "NaN for a coordinate" 2 "nan.xyz:2:" hmdraw nan.xyz
 must_fail "a band that is not there" 2 "no band 'slope'" hmdraw -B slope dem.asc
 must_fail "no window" 2 "w/e/s/n" hmdraw -R 0/10/0 dem.asc
 must_fail "a window inside out" 2 "west" hmdraw -R 10/0/0/10 dem.asc
+hmdraw -R 20/30/20/30 -o beside.png mesh.hm 2>beside.err
+ok "a window beside the data is told" grep -q "data are in 1/9/1/9" beside.err
 must_fail "a size beyond reason" 2 "size" hmdraw -s 1e6 dem.asc
 must_fail "an unknown format" 2 "type" hmdraw -t gif dem.asc
 printf '0 0 1\n1e308 1e308 1\n-1e308 -1e308 1\n' >far.xyz

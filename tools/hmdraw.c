@@ -169,19 +169,25 @@ static void parse_window(struct hm_cli *cli, const char *text, struct view *v)
         hm_cli_die(cli, "--region: a window more than 100 times as long as wide");
 }
 
+/* The window asked for, or one around all layers. */
 static void choose_window(struct hm_cli *cli, struct drawing *drawing)
 {
     struct view *v = &drawing->view;
-    if (cmd.region)
-        return;
-    *v = (struct view){.w = INFINITY, .e = -INFINITY, .s = INFINITY, .n = -INFINITY};
+    struct view all = {.w = INFINITY, .e = -INFINITY, .s = INFINITY, .n = -INFINITY};
     for (size_t k = 0; k < drawing->n; k++)
-        widen_by_layer(v, &drawing->layer[k]);
-    if (!(v->w <= v->e))
+        widen_by_layer(&all, &drawing->layer[k]);
+    if (!(all.w <= all.e))
         hm_cli_die(cli, "nothing to draw");
-    round_window(v);
-    if (!isfinite(v->e - v->w) || !isfinite(v->n - v->s))
+    if (cmd.region) {
+        if (all.e < v->w || all.w > v->e || all.n < v->s || all.s > v->n)
+            hm_cli_say(cli, "nothing lies in the window; the data are in %.10g/%.10g/%.10g/%.10g",
+                       all.w, all.e, all.s, all.n);
+        return;
+    }
+    round_window(&all);
+    if (!isfinite(all.e - all.w) || !isfinite(all.n - all.s))
         hm_cli_die(cli, "coordinates too far apart to draw");
+    *v = all;
 }
 
 /* --- the range of colours --- */

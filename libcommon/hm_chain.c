@@ -197,7 +197,8 @@ enum hm_err hm_chain_add(struct hm_chain *c, struct hm_joint *from, struct hm_jo
     if (before == behind)
         return finish(c, before, true, d);
     join(c, before, behind);
-    return HM_OK;
+    const struct open_line *joined = &c->line[before];
+    return joined->begin || joined->end ? HM_OK : finish(c, before, false, d);
 }
 
 enum hm_err hm_chain_seal(struct hm_chain *c, struct hm_joint *joint, struct hm_diag *d)

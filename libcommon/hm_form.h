@@ -61,6 +61,9 @@ extern const struct hm_form hm_form_las;
 extern const struct hm_form hm_form_ascii_grid;
 extern const struct hm_form hm_form_2dm;
 
+/* Does the input begin with a key of an ESRI ASCII grid? */
+bool hm_form_is_ascii_grid(const char *s, const char *end);
+
 /* The project's binary: r->form becomes it, once hm_form_text has read the header. */
 enum hm_err hm_form_begin_blocks(struct hm_reader *r, enum hm_encoding encoding, struct hm_diag *d);
 

@@ -87,28 +87,74 @@ static enum hm_err drain(struct hm_reader *r, struct hm_diag *d)
     return err == HM_END ? HM_OK : err;
 }
 
-static bool is_mark(const char *s, size_t n, const char *mark)
+static bool begins(const char *s, const char *end, const char *mark)
 {
-    size_t m = strlen(mark);
-    return n >= m && !memcmp(s, mark, m);
+    size_t n = strlen(mark);
+    return (size_t)(end - s) >= n && !memcmp(s, mark, n);
 }
 
-/* By its first bytes, and a look ahead for a line mark, what begins here. NULL: nothing known. */
+static const char *next_line(const char *s, const char *end)
+{
+    const char *lf = memchr(s, '\n', (size_t)(end - s));
+    return lf ? lf + 1 : end;
+}
+
+/* Where the first line begins that is of the project's own, or a line mark when that is wanted. */
+static const char *find_line(const char *s, const char *end, bool mark)
+{
+    while (s < end && !begins(s, end, "#hm ") && !(mark && *s == '>'))
+        s = next_line(s, end);
+    return s;
+}
+
+/* Files that are neither text nor read here; the first bytes say what they are. */
+static enum hm_err refuse_binary(struct hm_reader *r, const char *s, const char *end,
+                                 struct hm_diag *d)
+{
+    int64_t at = hm_input_tell(&r->in);
+    if (begins(s, end, "\x1f\x8b"))
+        return hm_input_fail_byte(&r->in, HM_EFORMAT, at, d,
+                                  "compressed: use \"gunzip -c\" into a pipe");
+    if (begins(s, end, "LASF"))
+        return hm_input_fail_byte(&r->in, HM_EFORMAT, at, d,
+                                  "LAS behind something else; it must be a file of its own");
+    if (memchr(s, '\0', (size_t)(end - s)))
+        return hm_input_fail_byte(&r->in, HM_EFORMAT, at, d,
+                                  "binary data of no form that is known");
+    return HM_OK;
+}
+
+/* Choose the form by what stands here, looking 64 KB ahead. */
 static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
 {
     enum { AHEAD = 1 << 16 };
-    struct hm_input *in = &r->in;
-    enum hm_err err = hm_input_fill(in, AHEAD, d);
+    enum hm_err err = hm_input_fill(&r->in, AHEAD, d);
     if (err)
         return err;
-    const char *s = hm_input_at(in);
-    size_t n = hm_input_has(in);
-    if (is_mark(s, n, "#hm ")) {
+    if (!r->any && begins(hm_input_at(&r->in), r->in.buf + r->in.fill, "\xef\xbb\xbf"))
+        r->in.pos += 3; /* the byte order mark that some editors put first */
+    size_t n = hm_input_has(&r->in);
+    const char *s = hm_input_at(&r->in), *end = s + (n < AHEAD ? n : AHEAD), *first = s;
+    if (begins(s, end, "#hm ")) {
         r->form = &hm_form_text;
         return HM_OK;
     }
-    r->form = &hm_form_table;
-    return HM_OK;
+    if (begins(s, end, "LASF") && hm_input_tell(&r->in) == 0) {
+        r->form = &hm_form_las;
+        return HM_OK;
+    }
+    end = find_line(s, end, false);
+    while (first < end && strchr("# \t\r\n", *first) && *first)
+        first = *first == '#' ? next_line(first, end) : first + 1;
+    if (hm_form_is_ascii_grid(first, end))
+        r->form = &hm_form_ascii_grid;
+    else if (begins(first, end, "MESH2D") || begins(first, end, "MESHNAME"))
+        r->form = &hm_form_2dm;
+    else if (begins(s, end, "# @V") || find_line(s, end, true) < end)
+        r->form = &hm_form_gmt;
+    else
+        r->form = &hm_form_table;
+    return refuse_binary(r, s, end, d);
 }
 
 /* Nothing but blank lines to the end of the input? They are passed over. */

@@ -11,7 +11,8 @@ TESTS=$(cd "${0%/*}" && pwd)
 DATA=${HM_DATA:-$TESTS/../../shared/data} # real terrain; may be absent: need_data skips
 PATH=$B/bin:$B/test:$PATH
 LC_ALL=C
-export PATH LC_ALL
+LSAN_OPTIONS="suppressions=$TESTS/lsan.supp:print_suppressions=0"
+export PATH LC_ALL LSAN_OPTIONS
 tap_n=0
 tap_bad=0
 WORK=$(mktemp -d) && cd "$WORK" || exit 2

@@ -1,5 +1,6 @@
 /* Colours that stay apart for colour-blind eyes: a height ramp from blue to brown through light
- * tones, on which lines can be seen, and the palette of Okabe and Ito for classes. */
+ * tones, on which lines can be seen; classes from the palette of Okabe and Ito, lightened for areas
+ * that carry wires. */
 #include "draw.h"
 
 #include <math.h>
@@ -44,9 +45,9 @@ struct rgb ramp_colour(enum ramp ramp, double t)
 
 struct rgb owner_colour(int32_t owner)
 {
-    static const struct rgb palette[] = {{0.34, 0.71, 0.91}, {0.90, 0.62, 0.00}, {0.00, 0.62, 0.45},
-                                         {0.80, 0.47, 0.65}, {0.94, 0.89, 0.26}, {0.00, 0.45, 0.70},
-                                         {0.84, 0.37, 0.00}};
+    static const struct rgb palette[] = {{1.00, 0.78, 0.40}, {0.91, 0.66, 0.84}, {0.53, 0.83, 0.70},
+                                         {0.62, 0.80, 0.95}, {0.96, 0.92, 0.50}, {0.55, 0.62, 0.90},
+                                         {0.95, 0.62, 0.50}};
     enum { COLOURS = sizeof palette / sizeof *palette };
     return palette[(owner - 1) % COLOURS];
 }

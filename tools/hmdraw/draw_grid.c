@@ -123,6 +123,14 @@ static double shade(const double slope[2], double stretch)
     return fmax(0, light / sqrt(a * a + b * b + 1));
 }
 
+/* v in steps of 1 / levels */
+static double step_to(double v, double levels)
+{
+    return round(v * levels) / levels;
+}
+
+/* Light and colour go in steps too small to disturb: a noisy ground in smooth ones makes pictures
+ * twice as large. */
 static void paint_relief(struct image *image, const struct field *f, int64_t reach, double step,
                          struct range range)
 {
@@ -133,8 +141,8 @@ static void paint_relief(struct image *image, const struct field *f, int64_t rea
             if (isnan(z))
                 continue;
             gradient(f, x, y, reach, s);
-            double light = 0.35 + 0.65 * shade(s, stretch);
-            struct rgb c = ramp_colour(RAMP_HEIGHT, range_part(range, z));
+            double light = step_to(0.35 + 0.65 * shade(s, stretch), 24);
+            struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 40));
             image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
         }
 }

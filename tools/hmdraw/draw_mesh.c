@@ -113,7 +113,9 @@ static double class_alpha(const struct page *page, int32_t class, enum fill fill
 {
     if (fill != FILL_REGION)
         return 1;
-    return class > 0 ? 0.5 : page->has_ground ? 0.25 : 1;
+    if (!page->has_ground)
+        return 1;
+    return class > 0 ? 0.7 : 0.25;
 }
 
 static void fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,

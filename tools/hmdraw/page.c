@@ -24,7 +24,7 @@ static enum hm_err check(cairo_status_t status, struct hm_diag *d)
 static void lay_out(struct page *page, double size, bool titled)
 {
     struct view *v = &page->view;
-    page->em = fmin(24, fmax(9, size / 100));
+    page->em = fmin(24, fmax(11, size / 100));
     double margin = page->plain ? 0 : margin_em * page->em;
     double gap = page->plain ? 0 : gap_em * page->em;
     double panel = page->plain ? 0 : panel_em * page->em;

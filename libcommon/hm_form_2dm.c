@@ -1,0 +1,313 @@
+/* SMS .2dm meshes: ND nodes, E3T triangles, E4Q quadrilaterals, NS node strings, in any order. Read
+ * whole at once: numbers of nodes may have gaps, and the strings, which come last, go to the
+ * header. */
+#include "hm_form.h"
+
+#include "hm_row.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct string { /* a node string: where it ends in the list of all */
+    char *name;
+    size_t end;
+};
+
+struct mesh2dm {
+    struct hm_mesh mesh; /* elements hold ids until the end */
+    int32_t *id;         /* of each node */
+    size_t id_cap;
+    int32_t *string_id; /* the nodes of all strings */
+    size_t string_ids, string_id_cap;
+    struct string *string;
+    size_t strings, string_cap;
+    size_t *order; /* nodes by id, when ids are not 1, 2, 3 … */
+};
+
+static void free_2dm(void *state)
+{
+    struct mesh2dm *m = state;
+    for (size_t i = 0; i < m->strings; i++)
+        free(m->string[i].name);
+    free(m->string);
+    free(m->string_id);
+    free(m->id);
+    free(m->order);
+    hm_mesh_free(&m->mesh);
+    free(m);
+}
+
+static enum hm_err bad_line(struct hm_reader *r, const char *s, const char *end, struct hm_diag *d)
+{
+    char word[HM_ROW_WORD];
+    return hm_input_fail(&r->in, HM_EFORMAT, d, "not what a .2dm has here: \"%s\"",
+                         hm_row_word(word, s, end));
+}
+
+/* The next word as a number; false when there is none. */
+static bool cut_number(const char **s, const char *end, double *v)
+{
+    const char *stop = hm_row_field(s, end, false);
+    if (*s == stop || hm_num_parse(*s, stop, v) != stop)
+        return false;
+    *s = stop;
+    return true;
+}
+
+static bool cut_id(const char **s, const char *end, int32_t *id)
+{
+    double v;
+    if (!cut_number(s, end, &v) || !(fabs(v) <= INT32_MAX) || v != floor(v))
+        return false;
+    *id = (int32_t)v;
+    return true;
+}
+
+/* --- cards --- */
+
+static enum hm_err read_node(struct hm_reader *r, const char *s, const char *end, struct hm_diag *d)
+{
+    struct mesh2dm *m = r->state;
+    double xyz[3];
+    int32_t id;
+    struct hm_node node;
+    if (!cut_id(&s, end, &id) || id < 0 || !cut_number(&s, end, &xyz[0]) ||
+        !cut_number(&s, end, &xyz[1]) || !cut_number(&s, end, &xyz[2]))
+        return bad_line(r, s, end, d);
+    const char *why = hm_form_make_node(&node, xyz, 0, 0);
+    if (why)
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", why);
+    if (!hm_grow(&m->id, &m->id_cap, m->mesh.nnodes + 1, sizeof *m->id))
+        return hm_fail_memory(d);
+    m->id[m->mesh.nnodes] = id;
+    return hm_mesh_add_node(&m->mesh, node, d);
+}
+
+/* `E3T id a b c material`; the material may be missing, and more may follow it. */
+static enum hm_err read_elem(struct hm_reader *r, const char *s, const char *end, int corners,
+                             struct hm_diag *d)
+{
+    struct mesh2dm *m = r->state;
+    struct hm_elem elem = {.node = {-1, -1, -1, -1}};
+    int32_t id;
+    if (!cut_id(&s, end, &id))
+        return bad_line(r, s, end, d);
+    for (int i = 0; i < corners; i++)
+        if (!cut_id(&s, end, &elem.node[i]) || elem.node[i] < 0)
+            return bad_line(r, s, end, d);
+    if (hm_row_skip(s, end) < end && (!cut_id(&s, end, &elem.region) || elem.region < 0))
+        return bad_line(r, s, end, d);
+    return hm_mesh_add_elem(&m->mesh, elem, d);
+}
+
+/* A name as it can stand in a header of words. */
+static char *string_name(const char *s, const char *end, size_t number)
+{
+    char text[32];
+    const char *stop = hm_row_field(&s, end, false);
+    if (s < stop && *s == '"') {
+        s++;
+        stop = memchr(s, '"', (size_t)(end - s));
+        if (!stop)
+            stop = end;
+    }
+    if (s == stop) {
+        snprintf(text, sizeof text, "%zu", number);
+        return strdup(text);
+    }
+    char *name = strndup(s, (size_t)(stop - s));
+    for (char *c = name; c && *c; c++)
+        if (hm_row_is_blank(*c))
+            *c = '_';
+    return name;
+}
+
+/* `NS a b -c name`: the string ends at the negative id; until then it goes on in further cards. */
+static enum hm_err read_string(struct hm_reader *r, const char *s, const char *end,
+                               struct hm_diag *d)
+{
+    struct mesh2dm *m = r->state;
+    while (hm_row_skip(s, end) < end) {
+        int32_t id;
+        if (!cut_id(&s, end, &id) || id == 0)
+            return bad_line(r, s, end, d);
+        if (!hm_grow(&m->string_id, &m->string_id_cap, m->string_ids + 1, sizeof *m->string_id))
+            return hm_fail_memory(d);
+        m->string_id[m->string_ids++] = id < 0 ? -id : id;
+        if (id > 0)
+            continue;
+        if (!hm_grow(&m->string, &m->string_cap, m->strings + 1, sizeof *m->string))
+            return hm_fail_memory(d);
+        struct string string = {string_name(s, end, m->strings + 1), m->string_ids};
+        if (!string.name)
+            return hm_fail_memory(d);
+        m->string[m->strings++] = string;
+        break;
+    }
+    return HM_OK;
+}
+
+/* Cards that mean nothing here are passed over, but not elements that would be missed. */
+static enum hm_err read_card(struct hm_reader *r, struct hm_header *h, const char *s,
+                             const char *end, struct hm_diag *d)
+{
+    if (hm_row_begins(s, end, "ND"))
+        return read_node(r, s + 2, end, d);
+    if (hm_row_begins(s, end, "E3T"))
+        return read_elem(r, s + 3, end, 3, d);
+    if (hm_row_begins(s, end, "E4Q"))
+        return read_elem(r, s + 3, end, 4, d);
+    if (hm_row_begins(s, end, "NS"))
+        return read_string(r, s + 2, end, d);
+    if (hm_row_begins(s, end, "E6T") || hm_row_begins(s, end, "E8Q") ||
+        hm_row_begins(s, end, "E9Q"))
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "elements with mid-side nodes are not read");
+    if (hm_row_begins(s, end, "MESHNAME")) {
+        char *name = string_name(s + 8, end, 1);
+        enum hm_err err = name ? hm_header_set(h, "name", name, d) : hm_fail_memory(d);
+        free(name);
+        return err;
+    }
+    return HM_OK;
+}
+
+/* --- from ids to numbers --- */
+
+static int compare_ids(const void *a, const void *b)
+{
+    const int32_t *const *p = a, *const *q = b;
+    return **p < **q ? -1 : **p > **q ? 1 : *p < *q ? -1 : *p > *q;
+}
+
+/* Sort the nodes by id, unless node i has the id i + 1. */
+static enum hm_err sort_ids(struct hm_reader *r, struct hm_diag *d)
+{
+    struct mesh2dm *m = r->state;
+    size_t n = m->mesh.nnodes, dense = 0;
+    while (dense < n && m->id[dense] == (int64_t)dense + 1)
+        dense++;
+    if (dense == n)
+        return HM_OK;
+    const int32_t **at = hm_alloc(n, sizeof *at);
+    m->order = hm_alloc(n, sizeof *m->order);
+    if (!at || !m->order) {
+        free(at);
+        return hm_fail_memory(d);
+    }
+    for (size_t i = 0; i < n; i++)
+        at[i] = &m->id[i];
+    qsort(at, n, sizeof *at, compare_ids);
+    enum hm_err err = HM_OK;
+    for (size_t i = 0; i < n; i++) {
+        m->order[i] = (size_t)(at[i] - m->id);
+        if (i > 0 && *at[i] == *at[i - 1] && !err)
+            err = hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "two nodes have the id %d", *at[i]);
+    }
+    free(at);
+    return err;
+}
+
+/* The number of the node with that id; -1 when there is none. */
+static int64_t find_node(const struct mesh2dm *m, int32_t id)
+{
+    size_t low = 0, high = m->mesh.nnodes;
+    if (!m->order)
+        return id >= 1 && (size_t)id <= high ? id - 1 : -1;
+    while (low < high) {
+        size_t mid = low + (high - low) / 2;
+        if (m->id[m->order[mid]] < id)
+            low = mid + 1;
+        else
+            high = mid;
+    }
+    return low < m->mesh.nnodes && m->id[m->order[low]] == id ? (int64_t)m->order[low] : -1;
+}
+
+static enum hm_err number_elems(struct hm_reader *r, struct hm_diag *d)
+{
+    struct mesh2dm *m = r->state;
+    for (size_t i = 0; i < m->mesh.nelems; i++) {
+        struct hm_elem *e = &m->mesh.elem[i];
+        int corners = hm_elem_corners(e);
+        int64_t numbers[5];
+        for (int k = 0; k < corners; k++)
+            numbers[k] = find_node(m, e->node[k]);
+        numbers[corners] = e->region;
+        const char *why = hm_form_make_elem(e, numbers, corners, m->mesh.nnodes);
+        if (why)
+            return hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "%s (element %zu of the file)", why,
+                                i + 1);
+    }
+    return HM_OK;
+}
+
+/* Node strings as keys: `#string inflow 12 13 14`. */
+static enum hm_err number_strings(struct hm_reader *r, struct hm_header *h, struct hm_diag *d)
+{
+    const struct mesh2dm *m = r->state;
+    enum hm_err err = HM_OK;
+    for (size_t i = 0, k = 0; i < m->strings && !err; i++) {
+        const struct string *string = &m->string[i];
+        size_t size = strlen(string->name) + (string->end - k) * 12 + 1, n = strlen(string->name);
+        char *value = hm_alloc(size, 1);
+        if (!value)
+            return hm_fail_memory(d);
+        memcpy(value, string->name, n + 1);
+        for (; k < string->end && !err; k++) {
+            int64_t node = find_node(m, m->string_id[k]);
+            if (node < 0)
+                err = hm_fail_line(d, HM_EFORMAT, r->in.name, 0,
+                                   "node string %s has the node %d, which is not there",
+                                   string->name, m->string_id[k]);
+            else
+                n += (size_t)sprintf(value + n, " %lld", (long long)node);
+        }
+        if (!err)
+            err = hm_header_add(h, "string", value, d);
+        free(value);
+    }
+    return err;
+}
+
+/* --- the form --- */
+
+static enum hm_err begin(struct hm_reader *r, struct hm_header *h, struct hm_diag *d)
+{
+    r->state = hm_alloc0(1, sizeof(struct mesh2dm));
+    if (!r->state)
+        return hm_fail_memory(d);
+    enum hm_err err = hm_header_init(h, HM_MESH, d);
+    while (!err) {
+        const char *s, *end;
+        err = hm_input_line(&r->in, &s, &end, d);
+        if (!err && hm_row_begins(s, end, "#hm")) {
+            hm_input_unread(&r->in);
+            break;
+        }
+        if (!err)
+            err = read_card(r, h, hm_row_skip(s, end), end, d);
+    }
+    if (err && err != HM_END)
+        return err;
+    err = sort_ids(r, d);
+    if (!err)
+        err = number_elems(r, d);
+    return err ? err : number_strings(r, h, d);
+}
+
+static enum hm_err read_mesh(struct hm_reader *r, struct hm_mesh *mesh, struct hm_diag *d)
+{
+    (void)d;
+    struct hm_mesh *own = &((struct mesh2dm *)r->state)->mesh;
+    mesh->node = own->node;
+    mesh->nnodes = own->nnodes;
+    mesh->node_cap = own->node_cap;
+    mesh->elem = own->elem;
+    mesh->nelems = own->nelems;
+    mesh->elem_cap = own->elem_cap;
+    *own = (struct hm_mesh){0};
+    r->ended = true;
+    return HM_OK;
+}
+
+const struct hm_form hm_form_2dm = {.begin = begin, .mesh = read_mesh, .free = free_2dm};

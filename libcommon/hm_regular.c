@@ -230,8 +230,8 @@ struct sampling {
     struct plan *plan;
 };
 
-/* z at the net's points, and at the control points themselves, where the dragging starts: on a
- * plane the surface then is that plane before the first iteration. */
+/* z where the surface has its Greville sites, and at the control points themselves, from where the
+ * dragging starts: on a plane the surface then is that plane before the first iteration. */
 static void sample_chunk(void *arg, size_t chunk)
 {
     const struct sampling *q = arg;
@@ -241,6 +241,7 @@ static void sample_chunk(void *arg, size_t chunk)
     for (size_t k = chunk * CHUNK; k < end; k++) {
         double *b = p->z + 3 * k;
         double *c = hm_bsurf_at(&p->out->surface, (int64_t)(k % p->n), (int64_t)(k / p->n));
+        hm_bsurf_eval(&p->out->surface, (double)(k % p->n), (double)(k / p->n), b, NULL, NULL);
         b[2] = hm_terrain_z(q->terrain, b[0], b[1], &hint);
         c[2] = hm_terrain_z(q->terrain, c[0], c[1], &hint);
     }
@@ -261,22 +262,28 @@ static const double *look(const struct plan *p, size_t i, size_t j, int di, int 
     }
 }
 
-/* Mean of the nearest known heights before, behind, right and left, one over distance; NaN without
- * any. */
+/* A height between what is known: linear between the nearest points before and behind, and between
+ * those to the right and left, the nearer pair counting more. Without a whole pair the nearest
+ * single point; NaN without any. */
 static double fill_height(const struct plan *p, size_t i, size_t j)
 {
-    static const int step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     const double *here = p->z + 3 * (j * p->n + i);
-    double sum = 0, weights = 0;
-    for (int k = 0; k < 4; k++) {
-        const double *b = look(p, i, j, step[k][0], step[k][1]);
-        if (b) {
-            double w = 1 / fmax(apart(here, b), 1e-9);
-            sum += w * b[2];
+    double sum = 0, weights = 0, nearest = INFINITY, single = NAN;
+    for (int axis = 0; axis < 2; axis++) {
+        const double *a = look(p, i, j, axis ? 0 : -1, axis ? -1 : 0);
+        const double *b = look(p, i, j, axis ? 0 : 1, axis ? 1 : 0);
+        double da = a ? apart(here, a) : INFINITY, db = b ? apart(here, b) : INFINITY;
+        if (fmin(da, db) < nearest) {
+            nearest = fmin(da, db);
+            single = da <= db ? a[2] : b[2];
+        }
+        if (a && b && da + db > 0) {
+            double w = 1 / (da + db);
+            sum += w * (a[2] * db + b[2] * da) / (da + db);
             weights += w;
         }
     }
-    return weights > 0 ? sum / weights : NAN;
+    return weights > 0 ? sum / weights : single;
 }
 
 static bool column_known(const struct plan *p, size_t i)

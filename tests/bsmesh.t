@@ -1,0 +1,336 @@
+#!/bin/sh
+# bsmesh on channels of known shape: where the nodes lie, what is refused.
+. "${0%/*}/tap.sh"
+
+# lines BODY: a stream of lines
+lines() {
+    printf '#hm 1 lines text\n#data\n%s\n#end\n' "$1"
+}
+
+# plane W E S N: measurements every 10 m on z = 0.01 x - 0.02 y + 5
+plane() {
+    awk -v w="$1" -v e="$2" -v s="$3" -v n="$4" 'BEGIN {
+        for (y = s; y <= n; y += 10)
+            for (x = w; x <= e; x += 10)
+                printf "%g %g %.17g\n", x, y, 0.01 * x - 0.02 * y + 5 }'
+}
+
+# nodes FILE: x y z flags owner of every node; elements FILE: shape and corners
+nodes() { awk '/^v/ { print $2, $3, $4, $5, $6 }' "$1"; }
+
+# most FILE EXPRESSION: the largest value of the awk expression in $1 .. $5 over all nodes
+most() { nodes "$1" | awk "{ e = $2; if (NR == 1 || e > m) m = e } END { printf \"%.12g\", m }"; }
+
+# area FILE: of all elements, and the least of one
+area() {
+    awk '/^#hm/ { n = 0 }
+        /^v/ { x[n] = $2; y[n++] = $3 }
+        /^[tq]/ { m = /^t/ ? 3 : 4; a = 0
+            for (i = 0; i < m; i++) { p = $(2 + i); q = $(2 + (i + 1) % m); a += x[p] * y[q] - x[q] * y[p] }
+            s += a / 2; if (!k++ || a / 2 < least) least = a / 2 }
+        END { printf "%.12g %.12g", s, least }' "$1"
+}
+
+# --- a straight channel on a plane ---
+
+plane -40 340 -40 80 >plane.xyz
+rough='> surface=main side=left
+1 41 0
+150 39 0
+299 40.5 0
+> surface=main side=right
+300 1 0
+120 -1 0
+0 0.5 0'
+banks='> limit=5
+-20 44 1
+320 44 1
+> limit=5
+-20 -3 1
+320 -3 1'
+lines "$rough" >rough.txt
+lines "$rough
+$banks" >lines.txt
+
+ok "a straight channel" bsmesh -o m.hm -c 10/8 -e 10/4 lines.txt plane.xyz
+true_that "all moved" "$(grep -c '60 of 62 control points on the banks moved\|62 of 62' tap.err) == 1"
+true_that "on the plane" "$(most m.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-18"
+true_that "up to the left breakline" "$(most m.hm '$2') - 44 < 1e-5 && $(most m.hm '$2') - 44 > -1e-5"
+true_that "and to the right one" "$(most m.hm '-$2') - 3 < 1e-5 && $(most m.hm '-$2') - 3 > -1e-5"
+set -- $(area m.hm)
+true_that "elements counter-clockwise" "$2 > 0"
+true_that "nodes 30 by 12 elements" "$(grep -c '^v' m.hm) == 31 * 13 && $(grep -c '^t' m.hm) == 2 * 30 * 12"
+true_that "bank nodes are on a breakline, on the border and fixed" \
+    "$(nodes m.hm | awk '$4 == 7' | wc -l) == 62"
+true_that "the rest of the border is fixed" "$(nodes m.hm | awk '$4 == 5' | wc -l) == 22"
+true_that "owner and region" "$(most m.hm '-$5') == -1 && $(grep -c '^t.* 1$' m.hm) == 720"
+true_that "name, role and owners" "$(grep -c '^#name main\|^#role regular\|^#owners main' m.hm) == 3"
+
+bsmesh -j 1 -c 10/8 -e 10/4 lines.txt plane.xyz >one.hm 2>/dev/null
+same "one thread as several" m.hm one.hm
+lines "$banks" >banks.txt
+cat plane.xyz banks.txt rough.txt | bsmesh -c 10/8 -e 10/4 >piped.hm 2>/dev/null
+same "operands in another order, through a pipe" m.hm piped.hm
+
+ok "without breaklines" bsmesh -o m0.hm -c 10/8 -e 10/4 rough.txt plane.xyz
+true_that "no node on a breakline" "$(most m0.hm 'int($4/2)%2') == 0"
+ok "snap=0 leaves the banks" bsmesh -o m1.hm -n 0 -c 10/8 -e 10/4 lines.txt plane.xyz
+true_that "the same places" "$(grep '^v' m0.hm | cksum | cut -d' ' -f1) == $(grep '^v' m1.hm | cksum | cut -d' ' -f1)"
+
+ok "quadrilaterals" bsmesh -o q.hm -Q -c 10/8 -e 10/4 lines.txt plane.xyz
+true_that "all of them, of the same nodes" \
+    "$(grep -c '^q' q.hm) == 360 && $(grep -c '^t' q.hm) == 0 && $(grep -c '^v' q.hm) == 403"
+true_that "the same area" "$(area q.hm | cut -d' ' -f1) - $1 < 1e-6 && $(area q.hm | cut -d' ' -f1) - $1 > -1e-6"
+
+for k in 1 3; do
+    bsmesh -k $k -c 10/0,.1,.3,.7,.9,1 -e 10/4 lines.txt plane.xyz >k.hm 2>/dev/null
+    true_that "degree $k, fractions across: on the plane" "$(most k.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-18"
+done
+true_that "fractions concentrate the nodes on the banks" \
+    "$(nodes k.hm | awk '$2 > 39' | wc -l) > 2 * 31"
+
+# sizes as attributes, drawn upstream, a curved inflow
+lines "> surface=a side=right along=20 across=0,.5,1 elements=15/10 snap=6
+300 40 0
+0 40 0
+> surface=a side=left
+0 0 0
+300 0 0
+> surface=a side=inflow
+300 0 0
+310 20 0
+300 40 0
+> surface=b side=left along=10 across=10 elements=10
+0 70 0
+100 70 0
+> surface=b side=right
+100 50 0
+0 50 0" >two.txt
+ok "sizes as attributes, two surfaces" bsmesh -o two.hm two.txt plane.xyz
+true_that "two objects in order" "$(awk '/^#name/ { printf "%s", $2 }' two.hm | grep -c '^ab$') == 1"
+true_that "numbered by order" "$(most two.hm '$5') == 2 && $(most two.hm '-$5') == -1"
+true_that "the bulge of the inflow" "$(most two.hm '$1') > 309 && $(most two.hm '$1') < 310.01"
+set -- $(area two.hm)
+true_that "counter-clockwise" "$2 > 0"
+ok "only one of them" bsmesh -o b.hm -s b two.txt plane.xyz
+true_that "with its number" "$(most b.hm '-$5') == -2 && $(grep -c '^#owners a b' b.hm) == 1"
+
+# --- a bend of 120°, breaklines at radii 60 and 100 ---
+
+# arc RADIUS STEP: points of the arc every STEP degrees
+arc() {
+    awk -v r="$1" -v step="$2" 'BEGIN { pi = atan2(0, -1)
+        for (a = -60; a <= 60; a += step) printf "%.10g %.10g 0\n", r * cos(a * pi / 180), r * sin(a * pi / 180) }'
+}
+plane -20 130 -120 120 >bend.xyz
+lines "> surface=bend side=right
+$(arc 103 15)
+> surface=bend side=left
+$(arc 58 30)
+> limit=5
+$(arc 60 0.5)
+> limit=5
+$(arc 100 0.5)" >bend.txt
+# off FILE RADIUS: 95th percentile of the distance of its bank nodes from the arc
+off() {
+    nodes "$1" | awk -v r="$2" '{ e = sqrt($1 * $1 + $2 * $2) - r; if (e < 0) e = -e; if (e < 10) print e }' |
+        awk '$1 < 5' | sort -g | awk '{ e[NR] = $1 } END { printf "%.6g", e[int(0.95 * NR + 0.999)] }'
+}
+for how in '' -Q; do
+    ok "a bend $how" bsmesh -o bend.hm $how -c 8/8 -e 3/2 bend.txt bend.xyz
+    nodes bend.hm | awk 'int($4 / 2) % 2' >bank.txt
+    sed 's/^/v /' bank.txt >bank.hm
+    true_that "bank nodes within 0.1 control distances of the inner breakline" "$(off bank.hm 60) < 0.6"
+    true_that "and of the outer one" "$(off bank.hm 100) < 0.8"
+    true_that "on the plane" "$(most bend.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-18"
+    set -- $(area bend.hm)
+    true_that "elements counter-clockwise" "$2 > 0"
+    # the sector of the ring: (100² - 60²) 120° / 2, but for the slanted ends
+    true_that "area of the bend: $1" "$1 > 0.97 * 6702 && $1 < 1.06 * 6702"
+done
+
+# --- faces ---
+
+loop='> face=main closed=1
+50 -20 0
+250 -20 0
+250 20 0
+150 20 0
+150 60 0
+50 60 0'
+lines "$rough
+$banks
+$loop" >face.txt
+ok "a face loop" bsmesh -o f.hm -c 10/8 -e 10/4 face.txt plane.xyz
+true_that "all inside it" "$(most f.hm '$1 < 50 || $1 > 250 || ($1 > 150 && $2 > 20)') == 0"
+true_that "no unused node" "$(awk '/^v/ { n++ } /^t/ { for (i = 2; i <= 4; i++) if (!seen[$i]++) m++ } END { print n - m }' f.hm) == 0"
+set -- $(area f.hm)
+true_that "area $1 of the cut" "$1 > 6500 && $1 < 200 * 47 - 100 * 24 + 1e-3 && $2 > 0"
+true_that "the cut is border" "$(nodes f.hm | awk '$4 % 2 == 0 && ($1 < 58 || $1 > 242)' | wc -l) == 0"
+lines "$rough
+$banks
+$loop
+> face=main hole=1 closed=1
+70 10 0
+120 10 0
+120 35 0
+70 35 0" >hole.txt
+ok "a hole in it" bsmesh -o h.hm -c 10/8 -e 10/4 hole.txt plane.xyz
+true_that "nothing inside" "$(most h.hm '$1 > 70 && $1 < 120 && $2 > 10 && $2 < 35') == 0"
+
+# --- gaps in the terrain ---
+
+awk '!($1 > 100 && $1 < 200 && $2 > 0 && $2 < 50)' plane.xyz >gap.xyz
+ok "a gap in the terrain is filled" bsmesh -o g.hm -g 30 -c 10/8 -e 10/4 lines.txt gap.xyz
+true_that "aloud" "$(grep -c 'control points without terrain' tap.err) == 1"
+true_that "between what is known" "$(most g.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-6"
+must_fail "--strict makes that exit 1" 1 "without terrain" \
+    bsmesh --strict -g 30 -c 10/8 -e 10/4 lines.txt gap.xyz
+awk '$1 < 200' plane.xyz >half.xyz
+must_fail "terrain that ends" 2 "no terrain under the outflow end of surface 'main'" \
+    bsmesh -c 10/8 -e 10/4 lines.txt half.xyz
+
+# --- what is refused ---
+
+refuse() { # NAME PATTERN LINES [OPTION …]
+    name=$1 pattern=$2
+    lines "$3" >bad.txt
+    shift 3
+    must_fail "$name" 2 "$pattern" bsmesh -c 10/8 -e 10/4 "$@" bad.txt plane.xyz
+}
+left='> surface=main side=left
+0 40 0
+300 40 0'
+right='> surface=main side=right
+0 0 0
+300 0 0'
+refuse "no rough banks" "no rough banks" "$banks"
+refuse "one bank only" "surface 'main' has no line with side=right" "$left"
+refuse "no bank" "surface 'main' has no line with side=left" '> surface=main side=inflow
+0 0 0
+0 40 0'
+refuse "a bank of one point" "side left of surface 'main' is only one point" "$right
+> surface=main side=left
+0 40 0"
+refuse "a bank without length" "only one point" "$right
+> surface=main side=left
+0 40 0
+0 40 0"
+refuse "a closed bank" "a closed line" "$right
+> surface=main side=left closed=1
+0 40 0
+30 40 0
+30 80 0"
+refuse "the same bank twice" "two lines with side=left" "$left
+$left"
+refuse "an unknown side" "side 'top': left, right, inflow or outflow" '> surface=main side=top
+0 0 0
+1 1 0'
+refuse "no side" "side ''" '> surface=main
+0 0 0
+1 1 0'
+refuse "banks that cross" "the banks of surface 'main' cross at 199.99" "$left
+> surface=main side=right
+0 0 0
+100 0 0
+200 40.00001 0
+150 20 0
+300 0 0"
+refuse "a bank that crosses itself" "the left bank of surface 'main' crosses itself" "$right
+> surface=main side=left
+0 40 0
+200 40 0
+200 80 0
+100 20 0
+300 20 0"
+refuse "sections that cross" "of surface 'main'" "$left
+$right
+> surface=main side=inflow
+0 0 0
+20 50 0
+0 40 0"
+refuse "swapped banks" "the banks of surface 'main' are swapped" "$left
+$right
+> surface=main side=inflow
+300 0 0
+300 40 0"
+refuse "inflow and outflow at one end" "lie at the same end" "$left
+$right
+> surface=main side=inflow
+300 0 0
+300 40 0
+> surface=main side=outflow
+301 0 0
+301 40 0"
+refuse "spacing larger than the river is wide" "farther apart than its banks" "$left
+$right" -c 10/50
+refuse "spacing larger than the river is long" "farther apart than its banks are long" "$left
+$right" -c 400/8
+refuse "a face without surface" "face=x: there is no surface 'x'" "$left
+$right
+> face=x closed=1
+0 0 0
+9 0 0
+9 9 0"
+refuse "an open face" "the loop face=main is open" "$left
+$right
+> face=main
+0 0 0
+90 0 0
+90 90 0"
+refuse "a face that crosses itself" "the loop face=main crosses itself" "$left
+$right
+> face=main closed=1
+0 0 0
+90 0 0
+0 40 0
+90 40 0"
+refuse "a face that leaves nothing" "no element of surface 'main'" "$left
+$right
+> face=main closed=1
+500 0 0
+590 0 0
+590 40 0"
+refuse "an attribute that is no number" "along" "$right
+> surface=main side=left along=wide
+0 40 0
+300 40 0"
+refuse "fractions that fall" "do not rise from 0 to 1" "$left
+$right" -c 10/0,.5,.3,1
+refuse "a length that is none" "no length of elements" "$left
+$right" -e 8/x
+refuse "an unknown surface" "no surface 'side'" "$left
+$right" -s side
+refuse "a fold" "folds here" '> surface=main side=left
+0 40 0
+80 40 0
+80 45 0
+20 45 0
+20 50 0
+300 50 0
+> surface=main side=right
+0 0 0
+300 0 0'
+
+lines "$left
+$right" >good.txt
+must_fail "no terrain" 2 "no terrain" bsmesh -c 10/8 -e 10/4 good.txt
+must_fail "terrain elsewhere" 2 "no terrain under surface 'main'" \
+    sh -c "awk '{ print \$1 + 9000, \$2, \$3 }' plane.xyz | bsmesh -c 10/8 -e 10/4 good.txt -"
+must_fail "measurements on a line" 2 "line" sh -c "awk '\$1 == 0' plane.xyz | bsmesh -c 10/8 -e 10/4 good.txt -"
+must_fail "one measurement" 2 "" sh -c "head -1 plane.xyz | bsmesh -c 10/8 -e 10/4 good.txt -"
+must_fail "a word for a number" 2 "" sh -c "(cat plane.xyz; echo 1 two 3) | bsmesh -c 10/8 -e 10/4 good.txt -"
+must_fail "NaN" 2 "" sh -c "(cat plane.xyz; echo 1 nan 3) | bsmesh -c 10/8 -e 10/4 good.txt -"
+must_fail "truncated lines" 2 "" sh -c "head -4 good.txt | bsmesh -c 10/8 -e 10/4 - plane.xyz"
+must_fail "no control distance" 2 "no distance of control points for surface 'main'" bsmesh -e 8 good.txt plane.xyz
+must_fail "no element length" 2 "no length of elements for surface 'main'" bsmesh -c 8 good.txt plane.xyz
+must_fail "empty input" 2 "empty" bsmesh -c 8 -e 8 /dev/null
+must_fail "a full disk" 2 "" sh -c "bsmesh -c 10/8 -e 10/4 good.txt plane.xyz >/dev/full"
+lines "$left
+$right
+> surface=other side=left
+0 0 0
+5 5 0" >late.txt
+bsmesh -c 10/8 -e 10/4 late.txt plane.xyz >late.hm 2>/dev/null
+true_that "nothing is written when a later surface fails" "$(wc -c <late.hm) == 0"
+done_testing

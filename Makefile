@@ -102,6 +102,25 @@ check-long: deps-quiet
 check-san:
 	$(Q)$(MAKE) --no-print-directory check SANITIZE=address,undefined
 
+# Each target with libFuzzer and the sanitizers for SECONDS; what it finds stays in build/fuzz, the seeds
+# in tests/fuzz/corpus.
+SECONDS ?= 600
+FUZZ_FLAGS = $(filter-out -O2,$(HM_CFLAGS)) -O1 -g -Itests/unit -fsanitize=address,undefined \
+             -fno-sanitize-recover=all
+$(B)/fuzz/obj/%.o: libcommon/%.c
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  CLANG   $<")
+	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link -c -o $@ $<
+$(B)/fuzz/%: tests/fuzz/%.c $(LIB_OBJ:$(B)/obj/%=$(B)/fuzz/obj/%)
+	$(if $(Q),@echo "  CLANG   $<")
+	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer -o $@ $^ -lm
+fuzz:
+	$(Q)tests/deps fuzz quiet
+	$(Q)$(MAKE) --no-print-directory $(FUZZ)
+	$(Q)for f in $(FUZZ); do n=$${f##*/}; mkdir -p $$f.found && \
+	    $$f -max_total_time=$(SECONDS) -timeout=10 -max_len=4096 -print_final_stats=1 \
+	        -artifact_prefix=$$f. $$f.found tests/fuzz/corpus/$$n || exit 1; done
+
 # What a stranger's tools say about the sources: all of it must be silent.
 lint:
 	$(Q)tests/deps lint quiet
@@ -138,4 +157,4 @@ install: all
 clean:
 	rm -rf build demo compile_commands.json
 
--include $(wildcard $(B)/obj/*.d $(B)/bin/*.d $(B)/test/*.d $(B)/bench/*.d $(B)/fuzz/*.d)
+-include $(wildcard $(B)/obj/*.d $(B)/bin/*.d $(B)/test/*.d $(B)/bench/*.d $(B)/fuzz/*.d $(B)/fuzz/obj/*.d)

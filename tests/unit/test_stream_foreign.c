@@ -203,7 +203,7 @@ static void test_las(void)
     refused("a point cut off", b, n - 1, HM_ETRUNC, 0, "299 of 300");
     refused("a header cut off", b, 100, HM_ETRUNC, 0, "cut off");
     b[104] = (char)0x83;
-    refused("LAZ", b, n, HM_EFORMAT, 0, "laszip -i /tmp/hm-stream");
+    refused("LAZ", b, n, HM_EFORMAT, 0, "laszip -i ");
     b[104] = 11;
     refused("an unknown point format", b, n, HM_EFORMAT, 0, "0 to 10");
     b[104] = 3;

@@ -75,6 +75,39 @@ int32_t hm_tri_find(const struct hm_tri *t, const double *p, int32_t hint)
     return hm_tri_walk(t, p, hm_tri_is_ghost(t, start) ? solid_beside(t, start) : start);
 }
 
+/* Do p and q, which are on a line with a, lie to the same side of it? */
+static bool is_same_way(const double *a, const double *p, const double *q)
+{
+    int k = p[0] == a[0];
+    return (p[k] > a[k] && q[k] > a[k]) || (p[k] < a[k] && q[k] < a[k]);
+}
+
+bool hm_tri_is_between(const double *a, const double *b, const double *c)
+{
+    int k = b[0] == a[0];
+    return b[k] > a[k] ? b[k] <= c[k] : b[k] >= c[k];
+}
+
+int32_t hm_tri_aim(const struct hm_tri *t, int32_t a, const double *p)
+{
+    const double *from = hm_tri_at(t, a);
+    int32_t first = t->edge[a], e = first;
+    do {
+        int32_t x = hm_tri_dest_of(t, e), y = hm_tri_apex_of(t, e);
+        if (x != HM_TRI_INFINITY) {
+            const double *px = hm_tri_at(t, x);
+            int side = hm_pred_orient_fast(from, px, p);
+            if (side == 0 && is_same_way(from, p, px))
+                return e;
+            if (side > 0 && y != HM_TRI_INFINITY &&
+                hm_pred_orient_fast(from, hm_tri_at(t, y), p) < 0)
+                return e;
+        }
+        e = hm_tri_turn(t, e);
+    } while (e != first);
+    return HM_TRI_NONE;
+}
+
 int32_t hm_tri_locate(const struct hm_tri *t, double x, double y, int32_t *hint)
 {
     if (!isfinite(x) || !isfinite(y))

@@ -14,6 +14,9 @@ void hm_tri_free(struct hm_tri *t)
     free(t->input);
     free(t->of_input);
     free(t->stack);
+    free(t->hole);
+    free(t->left.link);
+    free(t->right.link);
     free(t);
 }
 

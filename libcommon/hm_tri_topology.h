@@ -3,8 +3,9 @@
  * A triangle is three half-edges in a row, eight bytes each. What only some need (marks, regions,
  * an edge at each vertex) is in arrays of its own, made when first needed.
  *
- * The layers, each on those before it: topology (this), build (divide and conquer), locate, edit
- * (insert, split, remove, move), constrain; check stands beside them.
+ * The layers, each on those before it: topology (this), conquer and build, locate, flip and fill
+ * (the two ways to restore the Delaunay property), edit (insert, split, remove, move), constrain;
+ * check stands beside them.
  */
 #ifndef HM_TRI_TOPOLOGY_H
 #define HM_TRI_TOPOLOGY_H
@@ -16,6 +17,19 @@ enum { HM_TRI_FREE = -2 }; /* org of the first half-edge of a free slot */
 
 struct hm_tri_half {
     int32_t org, twin; /* in a free slot the first twin is the next free slot, or HM_TRI_NONE */
+};
+
+/* One edge of the rim of a hole in the triangulation: from v to the next link's v, the hole on its
+ * left. `outer` is the half-edge on its other side. Where the hole is on that side too, it is
+ * -2 - i, i the number of the link that goes back along the same edge. */
+struct hm_tri_link {
+    int32_t v, outer, marks;
+};
+
+/* A rim: n links and one more that holds the last vertex only. */
+struct hm_tri_rim {
+    struct hm_tri_link *link;
+    size_t n, cap;
 };
 
 struct hm_tri {
@@ -34,8 +48,10 @@ struct hm_tri {
     int32_t *of_input; /* vertex of each of n_input points */
     size_t n_input, duplicates;
 
-    int32_t *stack; /* scratch */
-    size_t cap_stack;
+    /* scratch, kept from call to call */
+    int32_t *stack, *hole; /* hole: the triangles that were in it */
+    size_t cap_stack, n_hole, cap_hole;
+    struct hm_tri_rim left, right;
 };
 
 static inline int32_t hm_tri_apex_of(const struct hm_tri *t, int32_t e)
@@ -105,5 +121,53 @@ int32_t hm_tri_conquer(struct hm_tri_half *half, const double *xy, int32_t n, ui
 /* hm_tri_locate.c: the solid triangle that holds p, or a ghost whose hull edge has p beyond it. */
 int32_t hm_tri_walk(const struct hm_tri *t, const double *p, int32_t tri);  /* tri: solid */
 int32_t hm_tri_find(const struct hm_tri *t, const double *p, int32_t hint); /* hint may be none */
+
+/* The edge from vertex a along which p lies, or else the one whose triangle, on its left, the way
+ * from a to p enters; HM_TRI_NONE when that way leaves the hull. */
+int32_t hm_tri_aim(const struct hm_tri *t, int32_t a, const double *p);
+
+/* For three points on a line, a different from b: is b not farther from a than c is? Only for c on
+ * the same side of a as b. */
+bool hm_tri_is_between(const double *a, const double *b, const double *c);
+
+/* hm_tri_flip.c. The edge e is given; its two triangles are a → b = e with apex c, and b → a with
+ * apex d. */
+
+/* Turn the edge to run from c to d. Afterwards e is a → d and twin(e) as it was is b → c, each
+ * beside its new triangle; the new edge is next(e). */
+void hm_tri_flip(struct hm_tri *t, int32_t e);
+
+/* Should the edge be flipped? For edges to infinity: would that make the hull convex? */
+bool hm_tri_is_illegal(const struct hm_tri *t, int32_t e);
+
+/* Restore the (constrained) Delaunay property around a new vertex v; `link` is an edge opposite v.
+ * Flips only edges opposite v, which is enough after inserting it. */
+void hm_tri_legalize_star(struct hm_tri *t, int32_t link);
+
+/* The same from any illegal edges, the first n on the stack (Lawson 1977). HM_ENOMEM leaves a valid
+ * triangulation that is not quite Delaunay. */
+enum hm_err hm_tri_legalize(struct hm_tri *t, size_t n, struct hm_diag *d);
+
+/* hm_tri_fill.c */
+
+/* Append a link along half-edge h of a triangle in the hole. */
+enum hm_err hm_tri_rim_add(struct hm_tri *t, struct hm_tri_rim *rim, int32_t h, struct hm_diag *d);
+enum hm_err hm_tri_rim_end(struct hm_tri_rim *rim, int32_t v, struct hm_diag *d); /* last vertex */
+void hm_tri_rim_reverse(struct hm_tri_rim *rim);
+enum hm_err hm_tri_hole_add(struct hm_tri *t, int32_t tri, struct hm_diag *d);
+enum hm_err hm_tri_fill_prepare(struct hm_tri *t, const struct hm_tri_rim *rim, struct hm_diag *d);
+
+/* Triangulate the polygon of a rim and the base from its last vertex to its first, constrained
+ * Delaunay, with triangles out of t->hole. Needs hm_tri_fill_prepare, then cannot fail. `outer` is
+ * the half-edge on the other side of the base, or HM_TRI_NONE; returns that on the inside. */
+int32_t hm_tri_fill(struct hm_tri *t, struct hm_tri_rim *rim, int32_t outer);
+
+/* hm_tri_edit.c: put vertex v (taken, not yet in) on edge e or into triangle tri, and restore the
+ * Delaunay property but for edges at v itself. Needs room for two triangles. */
+void hm_tri_split_edge(struct hm_tri *t, int32_t e, int32_t v);
+void hm_tri_split_triangle(struct hm_tri *t, int32_t tri, int32_t v);
+
+/* Would the four triangles of edge e split at p all turn left? */
+bool hm_tri_can_split(const struct hm_tri *t, int32_t e, const double *p);
 
 #endif

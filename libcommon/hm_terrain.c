@@ -182,6 +182,12 @@ static double node_z(const struct hm_grid *g, int64_t i, int64_t j)
     return g->v[(size_t)(j * l->nx + i) * g->bands];
 }
 
+/* Between two heights; an end that does not count may be nodata. */
+static double between(double a, double b, double part)
+{
+    return part == 0 ? a : part == 1 ? b : a + part * (b - a);
+}
+
 /* Bilinear in the cell that holds (x, y); NaN outside and beside nodata. */
 static double grid_z(const struct hm_grid *g, double x, double y)
 {
@@ -190,16 +196,10 @@ static double grid_z(const struct hm_grid *g, double x, double y)
     if (!(u >= 0 && v >= 0 && u <= (double)(l->nx - 1) && v <= (double)(l->ny - 1)))
         return NAN;
     int64_t i = (int64_t)u, j = (int64_t)v;
-    /* on the last row or column the cell before it; a lattice may be one node wide */
-    i -= i == l->nx - 1 && i > 0;
-    j -= j == l->ny - 1 && j > 0;
-    double fu = u - (double)i, fv = v - (double)j, low[2];
-    for (int k = 0; k < 2; k++) {
-        int64_t row = j + (k && l->ny > 1);
-        double a = node_z(g, i, row);
-        low[k] = a + fu * (node_z(g, i + (l->nx > 1), row) - a);
-    }
-    return low[0] + fv * (low[1] - low[0]);
+    int64_t i1 = i + 1 < l->nx ? i + 1 : i, j1 = j + 1 < l->ny ? j + 1 : j;
+    double fu = u - (double)i, fv = v - (double)j;
+    return between(between(node_z(g, i, j), node_z(g, i1, j), fu),
+                   between(node_z(g, i, j1), node_z(g, i1, j1), fu), fv);
 }
 
 /* Height of the node with data nearest to (x, y): rings of nodes around it, outward, until no

@@ -1,0 +1,301 @@
+/* trimesh: points, lines and regular meshes → the irregular mesh around them.
+ *
+ * Section 6 of the paper. Assembles the domain (hm_assemble), brings its edges between two lengths
+ * (hm_lengths), takes the heights of what is new from the terrain, writes one mesh.
+ */
+#include "hm_assemble.h"
+#include "hm_cli.h"
+#include "hm_lengths.h"
+#include "hm_owners.h"
+#include "hm_role.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum method { DELAUNAY, PAPER };
+enum elevation { Z_TERRAIN, Z_MEAN };
+enum line_z { LINE_GIVEN, LINE_TERRAIN };
+
+/* What the regular meshes keep clear at least (m): lidar's own resolution. */
+#define LEAST_CLEARANCE 0.001
+
+static struct {
+    int method, elevation, line_z;
+    double min_edge, max_edge, clearance;
+    bool min_given, max_given, clearance_given;
+    int smooth;
+    const char *steps;
+} cmd = {.method = PAPER, .smooth = 5};
+
+static const struct hm_option options[] = {
+    {'m', "method", "METHOD", HM_OPT_CHOICE, &cmd.method,
+     "delaunay: all points; paper: edges between -l and -L (default)", .choices = "delaunay|paper"},
+    {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, "minimum edge length, m",
+     .given = &cmd.min_given},
+    {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
+     "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
+    {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth, "passes of Laplace smoothing (default 5)", .given = NULL},
+    {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
+     "heights of new nodes: terrain (default) or mean of their neighbours",
+     .choices = "terrain|mean"},
+    {'C', "clearance", "M", HM_OPT_POSITIVE, &cmd.clearance,
+     "cut off what is nearer to a regular mesh, m (default half the minimum edge)",
+     .given = &cmd.clearance_given},
+    {0, "line-z", "FROM", HM_OPT_CHOICE, &cmd.line_z,
+     "heights of breaklines: given (default) or terrain", .choices = "given|terrain"},
+    {0, "steps", "DIR", HM_OPT_TEXT, &cmd.steps, "write the mesh after every round into DIR",
+     .silent = true},
+    {0}};
+
+static const struct hm_program program = {
+    .name = "trimesh",
+    .purpose = "points, lines and regular meshes -> the irregular mesh around them",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_ANY};
+
+static void check_command(struct hm_cli *cli)
+{
+    if (cmd.method == PAPER) {
+        if (!cmd.min_given)
+            hm_cli_die(cli, "-m paper needs a minimum edge length (-l)");
+        if (!cmd.max_given)
+            cmd.max_edge = 2.5 * cmd.min_edge;
+        if (cmd.max_edge <= cmd.min_edge)
+            hm_cli_die(cli, "the maximum edge (-L %g) must be more than the minimum (-l %g)",
+                       cmd.max_edge, cmd.min_edge);
+        if (cmd.max_edge < 2 * cmd.min_edge)
+            hm_cli_say(cli, "the maximum edge is under twice the minimum: not all edges can keep "
+                            "to both");
+    }
+    if (!cmd.clearance_given)
+        cmd.clearance = cmd.min_edge / 2;
+    cmd.clearance = fmax(cmd.clearance, LEAST_CLEARANCE);
+}
+
+/* --- terrain --- */
+
+/* Without points and grids: the heights of breaklines and regular meshes. */
+static void add_sparse_terrain(struct hm_cli *cli, const struct hm_inputs *in,
+                               struct hm_terrain *terrain)
+{
+    struct hm_diag d = {0};
+    struct hm_points p = {0};
+    hm_cli_check(cli, hm_header_init(&p.header, HM_POINTS, &d), &d);
+    for (size_t k = 0; k < in->nlines; k++)
+        for (size_t i = 0; i < in->lines[k].n; i++) {
+            const struct hm_line *line = &in->lines[k].line[i];
+            for (size_t j = 0; j < line->n && hm_role_of(line->attrs) == HM_ROLE_BREAKLINE; j++)
+                hm_cli_check(cli, hm_points_append(&p, line->xyz + 3 * j, &d), &d);
+        }
+    for (size_t k = 0; k < in->nmeshes; k++)
+        for (size_t i = 0; i < in->mesh[k].nnodes; i++)
+            hm_cli_check(cli, hm_points_append(&p, &in->mesh[k].node[i].x, &d), &d);
+    hm_cli_check(cli, hm_terrain_add_points(terrain, &p, 0, hm_cli_threads(cli), &d), &d);
+    hm_points_free(&p);
+}
+
+/* A grid was given for its heights, so it comes first; then the measurements. */
+static struct hm_terrain *make_terrain(struct hm_cli *cli, const struct hm_inputs *in)
+{
+    struct hm_diag d = {0};
+    struct hm_terrain *terrain;
+    hm_cli_check(cli, hm_terrain_new(&terrain, &d), &d);
+    for (size_t k = 0; k < in->ngrids; k++)
+        hm_cli_check(cli, hm_terrain_add_grid(terrain, &in->grid[k], &d), &d);
+    for (size_t k = 0; k < in->npoints; k++)
+        hm_cli_check(
+            cli, hm_terrain_add_points(terrain, &in->points[k], 0, hm_cli_threads(cli), &d), &d);
+    if (hm_terrain_is_empty(terrain))
+        add_sparse_terrain(cli, in, terrain);
+    return terrain;
+}
+
+/* --- the mesh around --- */
+
+static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
+{
+    hm_cli_mended(cli, c->duplicates, "%lld measurements at the place of another node left out",
+                  (long long)c->duplicates);
+    hm_cli_mended(cli, c->crossings + c->on_lines + c->overlaps + c->zero_length,
+                  "lines mended: %lld crossings, %lld nodes on a line, %lld pieces drawn twice, "
+                  "%lld without length",
+                  (long long)c->crossings, (long long)c->on_lines, (long long)c->overlaps,
+                  (long long)c->zero_length);
+    if (c->near_points > 0)
+        hm_cli_say(cli, "%lld measurements within %g m of a regular mesh's boundary left out",
+                   (long long)c->near_points, cmd.clearance);
+    if (c->outside_points > 0)
+        hm_cli_say(cli, "%lld measurements outside the domain give heights only",
+                   (long long)c->outside_points);
+    if (c->cut_lines > 0)
+        hm_cli_say(cli,
+                   "%lld of %lld breaklines cut: %.0f of %.0f m inside a regular mesh or within "
+                   "%g m of it",
+                   (long long)c->cut_lines, (long long)c->breaklines, c->near_length, c->length,
+                   cmd.clearance);
+    if (c->outside_length > 0)
+        hm_cli_say(cli, "%.0f of %.0f m of breaklines outside the domain left out",
+                   c->outside_length, c->length);
+    if (c->idle_holes > 0)
+        hm_cli_say(cli, "%lld holes outside the outline", (long long)c->idle_holes);
+    if (c->line_heights > 0)
+        hm_cli_say(cli, "%lld vertices of breaklines get their height from the terrain",
+                   (long long)c->line_heights);
+    if (cmd.method == PAPER && c->median_segment > 0 && c->median_segment < cmd.min_edge / 2)
+        hm_cli_say(
+            cli,
+            "half of the breaklines' segments are under %.3g m, which forces edges as short: "
+            "resample them (breaklines -r %g)",
+            c->median_segment, cmd.min_edge);
+}
+
+static void say_left(struct hm_cli *cli, const struct hm_lengths_left *left)
+{
+    if (left->too_short > 0)
+        hm_cli_say(cli, "%lld edges under %g m are left, %lld of them between fixed nodes",
+                   (long long)left->too_short, cmd.min_edge, (long long)left->too_short_fixed);
+    if (left->too_long > 0)
+        hm_cli_say(cli, "%lld edges over %g m are left, %lld of them at regular meshes",
+                   (long long)left->too_long, cmd.max_edge, (long long)left->too_long_regular);
+    if (left->fixed_short + left->fixed_long > 0)
+        hm_cli_say(cli,
+                   "of the edges that are fixed %lld are under the minimum, %lld over the maximum",
+                   (long long)left->fixed_short, (long long)left->fixed_long);
+}
+
+/* --- steps --- */
+
+struct steps {
+    struct hm_cli *cli;
+    const struct hm_header *header;
+    int n;
+};
+
+static enum hm_err write_step(void *arg, const struct hm_domain *dom, const char *what,
+                              struct hm_diag *d)
+{
+    struct steps *s = arg;
+    char path[4096], name[64];
+    size_t k = 0;
+    for (; what[k] && k < sizeof name - 1; k++)
+        name[k] = what[k] == ' ' ? '-' : what[k];
+    name[k] = 0;
+    snprintf(path, sizeof path, "%s/%03d-%s.hm", cmd.steps, ++s->n, name);
+    struct hm_mesh mesh = {0};
+    struct hm_writer *w = NULL;
+    enum hm_err err = hm_header_copy(&mesh.header, s->header, d);
+    if (!err)
+        err = hm_domain_mesh(dom, &mesh, d);
+    if (!err)
+        err = hm_writer_open(&w, path, hm_cli_format(s->cli), d);
+    if (!err)
+        err = hm_mesh_write(&mesh, w, d);
+    if (!err)
+        err = hm_writer_close(&w, d);
+    else
+        hm_writer_abandon(w);
+    hm_mesh_free(&mesh);
+    return err;
+}
+
+/* --- the product --- */
+
+/* The header of the mesh. Owner number k is the k-th name of #owners. */
+static void make_header(struct hm_cli *cli, struct hm_inputs *in, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    hm_cli_check(cli, hm_header_init(h, HM_MESH, &d), &d);
+    hm_cli_make_header(cli, h);
+    hm_cli_check(cli, hm_header_set(h, "name", "floodplain", &d), &d);
+    hm_cli_check(cli, hm_header_set(h, "role", "irregular", &d), &d);
+    char *owners = NULL;
+    hm_cli_check(cli, hm_owners_join(in->mesh, in->nmeshes, &owners, &d), &d);
+    hm_cli_check(cli, hm_header_set(h, "owners", *owners ? owners : NULL, &d), &d);
+    free(owners);
+}
+
+static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
+                     const struct hm_terrain *terrain, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_assembly_counts counts;
+    const struct hm_assembly assembly = {.points = in->points,
+                                         .lines = in->lines,
+                                         .meshes = in->mesh,
+                                         .npoints = in->npoints,
+                                         .nlines = in->nlines,
+                                         .nmeshes = in->nmeshes,
+                                         .terrain = terrain,
+                                         .clearance = cmd.clearance,
+                                         .line_z_terrain = cmd.line_z == LINE_TERRAIN,
+                                         .threads = hm_cli_threads(cli)};
+    hm_cli_check(cli, hm_assemble(&assembly, dom, &counts, &d), &d);
+    say_assembly(cli, &counts);
+}
+
+static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
+                             struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_lengths_left left;
+    struct steps steps = {.cli = cli, .header = header};
+    struct hm_lengths_options o = {
+        .bounds = {.least = cmd.min_edge, .most = cmd.max_edge, .clearance = cmd.min_edge / 2},
+        .smooth = cmd.smooth,
+        .threads = hm_cli_threads(cli)};
+    if (cmd.steps) {
+        if (mkdir(cmd.steps, 0777) && errno != EEXIST)
+            hm_cli_die(cli, "%s: %s", cmd.steps, strerror(errno));
+        o.watch = write_step;
+        o.arg = &steps;
+        hm_cli_check(cli, write_step(&steps, dom, "start", &d), &d);
+    }
+    hm_cli_check(cli, hm_lengths_reach(dom, &o, &left, &d), &d);
+    say_left(cli, &left);
+}
+
+/* New and moved nodes get the terrain's height. */
+static void lift(struct hm_cli *cli, const struct hm_terrain *terrain, struct hm_domain *dom)
+{
+    int32_t hint = 0;
+    for (int32_t v = 0; v < hm_tri_vertices(dom->tri); v++) {
+        struct hm_node *node = dom->node_of[v] < 0 ? NULL : &dom->node[dom->node_of[v]];
+        if (!node || !(node->flags & HM_NODE_NEW))
+            continue;
+        node->z = hm_terrain_z_nearest(terrain, node->x, node->y, &hint);
+        if (!isfinite(node->z))
+            hm_cli_die(cli, "nothing tells the height at %.17g %.17g", node->x, node->y);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    struct hm_cli *cli = hm_cli_start(&program, argc, argv);
+    struct hm_diag d = {0};
+    struct hm_inputs in = {0};
+    struct hm_domain dom = {0};
+    struct hm_mesh mesh = {0};
+    check_command(cli);
+    hm_cli_read_all(cli, &in);
+    make_header(cli, &in, &mesh.header);
+    struct hm_terrain *terrain = make_terrain(cli, &in);
+    assemble(cli, &in, terrain, &dom);
+    if (cmd.method == PAPER)
+        bring_to_lengths(cli, &mesh.header, &dom);
+    if (cmd.elevation == Z_TERRAIN)
+        lift(cli, terrain, &dom);
+    hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
+    hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);
+    if (hm_cli_verbose(cli))
+        hm_cli_say(cli, "%zu nodes, %zu elements", mesh.nnodes, mesh.nelems);
+    hm_mesh_free(&mesh);
+    hm_domain_free(&dom);
+    hm_terrain_free(terrain);
+    hm_inputs_free(&in);
+    return hm_cli_finish(cli);
+}

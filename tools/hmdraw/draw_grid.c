@@ -141,8 +141,8 @@ static void paint_relief(struct image *image, const struct field *f, int64_t rea
             if (isnan(z))
                 continue;
             gradient(f, x, y, reach, s);
-            double light = step_to(0.35 + 0.65 * shade(s, stretch), 24);
-            struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 40));
+            double light = step_to(0.35 + 0.65 * shade(s, stretch), 32);
+            struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 48));
             image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
         }
 }

@@ -101,7 +101,7 @@ static int by_value(const void *a, const void *b)
 static double exaggeration(const struct field *f, int64_t reach, double step)
 {
     enum { MOST = 20000 };
-    double steep[MOST];
+    double steep[MOST] = {0};
     size_t n = 0;
     int64_t stride = f->width * f->height / MOST + 1;
     for (int64_t k = 0; k < f->width * f->height; k += stride) {

@@ -145,12 +145,14 @@ static void enter_class(struct page *page, const struct hm_mesh *m, int32_t clas
     if (fill != FILL_REGION)
         return;
     owner_name(m, class, name);
+    const char *role = hm_header_get(&m->header, "role");
+    bool irregular = role && !strcmp(role, "irregular");
     if (owned && class > 0)
         legend_add(page, MARK_FILL, colour, count, "%s", name);
     else if (class > 0)
         legend_add(page, MARK_FILL, colour, count, "region %d", (int)class);
     else
-        legend_add(page, MARK_FILL, colour, count, owned ? "irregular" : "elements");
+        legend_add(page, MARK_FILL, colour, count, "%s", owned || irregular ? "irregular" : "mesh");
 }
 
 /* Paint every class in turn, from the lowest, and enter it in the legend. */
@@ -243,6 +245,14 @@ static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const 
     return HM_OK;
 }
 
+static int64_t count_visible(const struct page *page, const struct hm_mesh *m)
+{
+    int64_t count = 0;
+    for (size_t k = 0; k < m->nelems; k++)
+        count += is_visible(&page->view, m, &m->elem[k]);
+    return count;
+}
+
 enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill,
                       struct range heights, struct hm_diag *d)
 {
@@ -259,7 +269,7 @@ enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill
     if (fill != FILL_WIRE)
         fill_elements(page, m, class, fill, owned);
     if (fill != FILL_REGION)
-        legend_add(page, MARK_LINE, INK, (int64_t)m->nelems, "Mesh");
+        legend_add(page, MARK_LINE, INK, count_visible(page, m), "Elements");
     if (fill == FILL_Z)
         legend_bar(page, RAMP_HEIGHT, heights, "Height (m)");
     enum hm_err err = draw_wires(page, m, class, fill, d);

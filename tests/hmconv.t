@@ -116,7 +116,7 @@ hmconv -t asc fine.hm >fine.asc
 ok "a corner that would not lead back to 0.001 exactly: the middle of the cell" \
     grep -q '^xllcenter 0.001' fine.asc
 hmconv fine.asc >fine_back.hm
-ok "and the nodes come back exactly" grep -q '^0.001 0.001 1$' fine_back.hm
+ok "and the origin comes back exactly" grep -q '^#origin 0.001 7.001$' fine_back.hm
 must_fail "cells that are not square" 2 "square" sh -c "sed 's/^#step.*/#step 1 2/; s/ 201.5/ 202.5/' grid.hm | hmconv -t asc"
 must_fail "a band that is not there" 2 "no band 'aspect'" hmconv -t asc --band aspect grid.hm
 must_fail "two grids" 2 "one grid" hmconv -t asc grid.hm grid.hm

@@ -122,11 +122,15 @@ static void say_histogram(struct text *t, const struct hm_meshstat *s)
 {
     static const char bar[] = "########################################";
     int64_t most = 1;
-    for (int k = 0; k < HM_MESHSTAT_BINS; k++)
+    int bins = 0; /* up to the last that holds any */
+    for (int k = 0; k < HM_MESHSTAT_BINS; k++) {
         if (s->histogram[k] > most)
             most = s->histogram[k];
+        if (s->histogram[k])
+            bins = k + 1;
+    }
     say(t, "\n  smallest angle of an element, degrees\n");
-    for (int k = 0; k < HM_MESHSTAT_BINS; k++) {
+    for (int k = 0; k < bins; k++) {
         int length = (int)((s->histogram[k] * 40 + most - 1) / most);
         say(t, "    %2d - %2d %10lld%s%.*s\n", 5 * k, 5 * k + 5, (long long)s->histogram[k],
             length ? "  " : "", length, bar);

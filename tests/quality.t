@@ -87,6 +87,12 @@ ok "the text has the row of Table 2" grep -Eq \
 ok "the text has the extremes" sh -c "grep -q 'lowest .*-0.3750 m  at 10.000 5.000' report.txt &&
     grep -q 'highest .*0.2500 m  at 12.000 0.000' report.txt"
 ok "the verdicts" sh -c "grep -c '^  miss' report.txt | grep -qx 3"
+sed 's/^#name.*/#name a "b" \\c/' square.hm >named.hm
+quality -J named.hm seven.xyz | grep '"name"' >got
+cat >want <<'END'
+  "name": "a \"b\" \\c",
+END
+same "JSON escapes quotes and backslashes" want got
 quality -t 0.2,0.4 -J -o report.json square.hm seven.xyz
 true_that "other thresholds: 60 % green, no red" "$(value green) == 60 && $(value red) == 0"
 

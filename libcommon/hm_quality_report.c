@@ -11,9 +11,10 @@
 /* A verdict on the survey: a criterion and who asks for it. */
 static const struct {
     const char *criterion, *what, *source;
-} verdicts[] = {{"rmse<=0.15", "RMSE at most 0.15 m", "FEMA 2003, Appendix A (LiDAR for floodplain mapping)"},
-                {"within>=95", "95 % within 0.294 m", "NSSDA (FGDC-STD-007.3-1998): 1.96 x 0.15 m"},
-                {"red<5", "red under 5 %", "the paper of the scheme, section 7"}};
+} verdicts[] = {
+    {"rmse<=0.15", "RMSE at most 0.15 m", "FEMA 2003, Appendix A (LiDAR for floodplain mapping)"},
+    {"within>=95", "95 % within 0.294 m", "NSSDA (FGDC-STD-007.3-1998): 1.96 x 0.15 m"},
+    {"red<5", "red under 5 %", "the paper of the scheme, section 7"}};
 enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 
 static enum hm_err judge(const struct hm_quality *q, int verdict, struct hm_criterion *c,

@@ -204,6 +204,20 @@ ok "the same sums" sh -c "grep '^  all' report.txt >a; grep '^  all' other.txt |
 quality -b -r binary.hm wave.hm many.xyz >/dev/null
 ok "residuals in binary" sh -c "hmconv binary.hm | cmp - one.hm"
 
+# --- the engineers' mesh of the Danube: its nodes are the survey ---
+if need_data danube_deggendorf/reference_mesh_triangles.txt.gz; then
+    points=$DATA/danube_deggendorf/points.xyz
+    { printf '#hm 1 mesh text\n#data\n'
+      awk '{ print "v", $0, 0, 0 }' "$points"
+      gzip -dc "$DATA/danube_deggendorf/reference_mesh_triangles.txt.gz" | awk '{ print "t", $0, 0 }'
+      echo '#end'; } >danube.hm
+    quality -J -o report.json danube.hm "$points"
+    echo "47543 93209 0" >want
+    echo "$(value compared) $(value triangles) $(value outside)" >got
+    same "every point of the Danube is on its mesh" want got
+    true_that "and on its height" "$(value rmse) < 1e-9 && $(value p95) < 1e-9"
+fi
+
 # --- criteria ---
 ok "criteria met: exit 0" quality -c 'rmse<=0.5,red<40%,minangle>=20,valid' wave.hm many.xyz
 quality -c 'rmse<=0.5,red<1,minangle>=80,valid' wave.hm many.xyz >report.txt

@@ -3,7 +3,7 @@
 #define HM_ELEM_H
 
 #include "hm_boxtree.h"
-#include "hm_data.h"
+#include "hm_mesh.h"
 
 /* Corner coordinates of an element; returns 3 or 4. */
 int hm_elem_xy(const struct hm_mesh *m, const struct hm_elem *e, double xy[4][2]);

@@ -2,7 +2,7 @@
 #ifndef HM_MESHEDGES_H
 #define HM_MESHEDGES_H
 
-#include "hm_data.h"
+#include "hm_mesh.h"
 
 /* An edge of a mesh: its nodes as the left element runs through them, and the elements beside. */
 struct hm_mesh_edge {

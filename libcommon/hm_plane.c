@@ -1,0 +1,85 @@
+#include "hm_plane.h"
+
+#include "hm_pred.h"
+
+#include <math.h>
+
+/* Part of the way from a to b at which the foot of p lies, held to 0 .. 1. */
+static double foot(const double *p, const double *a, const double *b)
+{
+    double ux = b[0] - a[0], uy = b[1] - a[1];
+    double length2 = ux * ux + uy * uy;
+    double t = length2 > 0 ? ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / length2 : 0;
+    return fmin(fmax(t, 0), 1);
+}
+
+double hm_plane_distance(const double *p, const double *a, const double *b)
+{
+    double t = foot(p, a, b);
+    return hypot(a[0] + t * (b[0] - a[0]) - p[0], a[1] + t * (b[1] - a[1]) - p[1]);
+}
+
+double hm_plane_gap(const double *a, const double *b, const double *c, const double *d,
+                    double middle[2])
+{
+    const double *end[4][3] = {{a, c, d}, {b, c, d}, {c, a, b}, {d, a, b}};
+    double least = INFINITY;
+    if (hm_plane_meet(a, b, c, d))
+        return 0;
+    for (int i = 0; i < 4; i++) { /* the nearest place to one is an end of the other */
+        const double *p = end[i][0], *from = end[i][1], *to = end[i][2];
+        double distance = hm_plane_distance(p, from, to), t = foot(p, from, to);
+        if (distance >= least)
+            continue;
+        least = distance;
+        for (int k = 0; k < 2; k++)
+            middle[k] = (p[k] + (from[k] + t * (to[k] - from[k]))) / 2;
+    }
+    return least;
+}
+
+/* Do the intervals of two segments of one line have something in common, in coordinate k? */
+static bool intervals_meet(const double *a, const double *b, const double *c, const double *d,
+                           int k)
+{
+    return fmin(a[k], b[k]) <= fmax(c[k], d[k]) && fmin(c[k], d[k]) <= fmax(a[k], b[k]);
+}
+
+bool hm_plane_meet(const double *a, const double *b, const double *c, const double *d)
+{
+    if (!intervals_meet(a, b, c, d, 0) || !intervals_meet(a, b, c, d, 1))
+        return false;
+    int ab_c = hm_pred_orient(a, b, c), ab_d = hm_pred_orient(a, b, d);
+    int cd_a = hm_pred_orient(c, d, a), cd_b = hm_pred_orient(c, d, b);
+    /* signs, not products: a sign may be any int */
+    return !((ab_c > 0 && ab_d > 0) || (ab_c < 0 && ab_d < 0) || (cd_a > 0 && cd_b > 0) ||
+             (cd_a < 0 && cd_b < 0));
+}
+
+bool hm_plane_cross(const double *a, const double *b, const double *c, const double *d)
+{
+    int ab_c = hm_pred_orient(a, b, c), ab_d = hm_pred_orient(a, b, d);
+    if (!((ab_c > 0 && ab_d < 0) || (ab_c < 0 && ab_d > 0)))
+        return false;
+    int cd_a = hm_pred_orient(c, d, a), cd_b = hm_pred_orient(c, d, b);
+    return (cd_a > 0 && cd_b < 0) || (cd_a < 0 && cd_b > 0);
+}
+
+double hm_plane_meeting(const double *a, const double *b, const double *c, const double *d)
+{
+    int cd_a = hm_pred_orient(c, d, a), cd_b = hm_pred_orient(c, d, b);
+    if (cd_a == 0 && cd_b == 0)
+        return hm_plane_distance(a, c, d) == 0 ? 0 : fmin(foot(c, a, b), foot(d, a, b));
+    if (cd_a == 0)
+        return 0;
+    if (cd_b == 0)
+        return 1;
+    double from = fabs(hm_area2(c, d, a)), to = fabs(hm_area2(c, d, b));
+    return from + to > 0 ? from / (from + to) : 0;
+}
+
+double hm_plane_angle(const double *at, const double *a, const double *b)
+{
+    double dot = (a[0] - at[0]) * (b[0] - at[0]) + (a[1] - at[1]) * (b[1] - at[1]);
+    return fabs(atan2(hm_area2(at, a, b), dot)) * 180 / acos(-1);
+}

@@ -1,0 +1,28 @@
+/* hm_plane: points and segments in the plane. Layer 2, on predicates. A point is its x and y. */
+#ifndef HM_PLANE_H
+#define HM_PLANE_H
+
+#include "hm_base.h"
+
+/* Distance of p from the segment a–b. */
+double hm_plane_distance(const double *p, const double *a, const double *b);
+
+/* Distance of the segments a–b and c–d; 0 when they meet. When they do not, `middle` gets the point
+ * halfway between the nearest points of both. */
+double hm_plane_gap(const double *a, const double *b, const double *c, const double *d,
+                    double middle[2]);
+
+/* Have the segments a–b and c–d a point in common, exactly? Ends count. */
+bool hm_plane_meet(const double *a, const double *b, const double *c, const double *d);
+
+/* Do they cross, each with an end on both sides of the other, exactly? */
+bool hm_plane_cross(const double *a, const double *b, const double *c, const double *d);
+
+/* Where a–b meets c–d, as a part of a–b, 0 .. 1; exactly 0 or 1 when a or b lies on c–d. For
+ * segments that meet; of an overlap the place nearest to a. */
+double hm_plane_meeting(const double *a, const double *b, const double *c, const double *d);
+
+/* The angle at `at` between the ways to a and to b, 0 .. 180 degrees. */
+double hm_plane_angle(const double *at, const double *a, const double *b);
+
+#endif

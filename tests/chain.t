@@ -16,7 +16,7 @@ for file in dem slope breaklines regular river flood hybrid; do
     slope) command="slope dem.hm" ;;
     breaklines) command="breaklines -s 8 -l 30 -r 6 slope.hm" ;;
     regular) command="bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz" ;;
-    river) command="stitch regular.hm survey.xyz" ;;
+    river) command="stitch -c regular.hm survey.xyz" ;;
     flood) command="trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt river.hm" ;;
     hybrid) command="stitch river.hm flood.hm" ;;
     esac
@@ -59,7 +59,7 @@ worst=$(awk 'BEGIN { want = atan2(sqrt(0.02 ^ 2 + 0.01 ^ 2), 1) * 180 / atan2(0,
     !/^#/ && $4 != "nan" { e = $4 - want; if (e < 0) e = -e; if (e > most) most = e }
     END { printf "%.3g", most }' plane.hm)
 true_that "slope of a plane, degrees off" "$worst < 1e-9"
-bsmesh -c 15/6 -e 12/5 lines.txt plane.xyz | stitch - plane.xyz >plane_river.hm
+bsmesh -c 15/6 -e 12/5 lines.txt plane.xyz | stitch -c - plane.xyz >plane_river.hm
 trimesh -l 6 -L 20 plane.xyz lines.txt plane_river.hm | stitch plane_river.hm - >plane_hybrid.hm
 quality -r residuals.hm plane_hybrid.hm plane.xyz >/dev/null
 worst=$(awk '!/^#/ && $4 != "nan" { e = $4 < 0 ? -$4 : $4; if (e > most) most = e; n++ }

@@ -1,0 +1,184 @@
+#include "hm_cut.h"
+
+#include "hm_elem.h"
+#include "hm_plane.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The two meshes, and how near is too near. */
+struct sides {
+    const struct hm_border *higher;
+    const struct hm_locate *in_higher;
+    const struct hm_mesh *lower;
+    const struct hm_locate *in_lower;
+    double buffer;
+};
+
+static bool overlaps(const struct sides *s, const struct hm_elem *e)
+{
+    const struct hm_mesh *higher = s->higher->mesh;
+    struct hm_boxquery q = hm_boxtree_find(hm_locate_boxes(s->in_higher), hm_elem_box(s->lower, e));
+    for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;)
+        if (hm_elem_overlap(s->lower, e, higher, &higher->elem[i]))
+            return true;
+    return false;
+}
+
+/* Distance between an element and the segment a–b, and the middle of the shortest way. */
+static double distance(const struct hm_mesh *m, const struct hm_elem *e, const double *a,
+                       const double *b, double middle[2])
+{
+    double p[4][2];
+    int n = hm_elem_xy(m, e, p);
+    if (hm_elem_holds(m, e, a[0], a[1]))
+        return 0;
+    double least = INFINITY;
+    for (int i = 0; i < n; i++) {
+        double halfway[2], apart = hm_plane_gap(p[i], p[(i + 1) % n], a, b, halfway);
+        if (apart < least) {
+            least = apart;
+            middle[0] = halfway[0];
+            middle[1] = halfway[1];
+        }
+    }
+    return least;
+}
+
+/* Is the element too near to the border? Sees, too, whether it touches it: then it is. A border
+ * beyond ground that neither mesh covers, as between two channels side by side, is not near. */
+static bool is_near(const struct sides *s, const struct hm_elem *e, bool *touches)
+{
+    double length = hm_elem_mean_edge(s->lower, e), touch = 1e-6 * length;
+    double reach = s->buffer >= 0 ? s->buffer : HM_CUT_REACH * fmax(length, s->higher->longest);
+    bool near = false, touched = false;
+    struct hm_boxquery q = hm_boxtree_find(
+        s->higher->tree, hm_box_grown(hm_elem_box(s->lower, e), fmax(reach, touch)));
+    for (int32_t k; !touched && (k = hm_boxtree_next(&q)) >= 0;) {
+        size_t i = (size_t)k;
+        double middle[2] = {0}, own = HM_CUT_REACH * fmax(length, hm_border_length(s->higher, i));
+        double apart =
+            distance(s->lower, e, hm_border_from(s->higher, i), hm_border_to(s->higher, i), middle);
+        touched = apart <= touch;
+        near = near || (apart < (s->buffer >= 0 ? s->buffer : own) && !touched &&
+                        hm_locate_element(s->in_lower, middle[0], middle[1]) >= 0);
+    }
+    *touches |= touched;
+    return near || touched;
+}
+
+/* What the cut leaves of each element: the edges it opened, and the neighbours still there. */
+struct rest {
+    int8_t opened, neighbours;
+};
+
+static void count_rest(const struct hm_mesh_edge *edge, size_t nedges, const bool *gone,
+                       struct rest *rest)
+{
+    for (size_t i = 0; i < nedges; i++) {
+        int32_t l = edge[i].left, r = edge[i].right;
+        if (r < 0 || (gone[l] && gone[r]))
+            continue;
+        if (gone[l] || gone[r]) {
+            rest[gone[l] ? r : l].opened++;
+        } else {
+            rest[l].neighbours++;
+            rest[r].neighbours++;
+        }
+    }
+}
+
+/* Mark the nodes from which more than one edge of the remaining boundary leaves, and that were in
+ * order before. */
+static void mark_pinched(const struct hm_mesh_edge *edge, size_t nedges, const bool *gone,
+                         uint8_t *leaving, size_t nnodes)
+{
+    enum { ONCE = 1, PINCHED = 2, BEFORE = 4, TOUCHED = 8 };
+    for (size_t i = 0; i < nnodes; i++)
+        leaving[i] = 0;
+    for (size_t i = 0; i < nedges; i++) {
+        const struct hm_mesh_edge *e = &edge[i];
+        bool left = !gone[e->left], right = e->right >= 0 && !gone[e->right];
+        if (e->right < 0)
+            leaving[e->a] |= leaving[e->a] & BEFORE ? TOUCHED : BEFORE;
+        if (left == right)
+            continue;
+        uint8_t *at = &leaving[left ? e->a : e->b];
+        *at |= *at & ONCE ? PINCHED : ONCE;
+    }
+    for (size_t i = 0; i < nnodes; i++)
+        leaving[i] = (leaving[i] & (PINCHED | TOUCHED)) == PINCHED;
+}
+
+/* One round: elements that hang by an edge or by nothing, and all around a pinched node, go. */
+static int64_t drop_loose(const struct hm_mesh *m, const struct hm_mesh_edge *edge, size_t nedges,
+                          struct hm_cut *cut, struct rest *rest, uint8_t *pinched)
+{
+    int64_t dropped = 0;
+    for (size_t i = 0; i < m->nelems; i++)
+        rest[i] = (struct rest){0};
+    count_rest(edge, nedges, cut->gone, rest);
+    mark_pinched(edge, nedges, cut->gone, pinched, m->nnodes);
+    for (size_t i = 0; i < m->nelems; i++) {
+        const struct hm_elem *e = &m->elem[i];
+        int corners = hm_elem_corners(e);
+        if (cut->gone[i])
+            continue;
+        bool loose = rest[i].opened >= corners - 1 || (rest[i].opened > 0 && !rest[i].neighbours);
+        for (int k = 0; k < corners; k++)
+            loose |= pinched[e->node[k]];
+        cut->gone[i] = loose;
+        dropped += loose;
+    }
+    return dropped;
+}
+
+static enum hm_err trim(const struct hm_mesh *m, struct hm_cut *cut, struct hm_diag *d)
+{
+    struct hm_mesh_edge *edge;
+    size_t nedges;
+    enum hm_err err = hm_mesh_edges(m, &edge, &nedges, d);
+    if (err)
+        return err;
+    struct rest *rest = hm_alloc(m->nelems, sizeof *rest);
+    uint8_t *pinched = hm_alloc(m->nnodes, sizeof *pinched);
+    if (rest && pinched)
+        for (int64_t n; (n = drop_loose(m, edge, nedges, cut, rest, pinched)) > 0;)
+            cut->loose += n;
+    else
+        err = hm_fail_memory(d);
+    free(edge);
+    free(rest);
+    free(pinched);
+    return err;
+}
+
+enum hm_err hm_cut_mark(struct hm_cut *cut, const struct hm_border *higher,
+                        const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                        const struct hm_locate *in_lower, double buffer, struct hm_diag *d)
+{
+    const struct sides s = {higher, in_higher, lower, in_lower, buffer};
+    *cut = (struct hm_cut){.gone = hm_alloc0(lower->nelems, sizeof *cut->gone)};
+    if (!cut->gone)
+        return hm_fail_memory(d);
+    for (size_t i = 0; i < lower->nelems; i++) {
+        if (overlaps(&s, &lower->elem[i]))
+            cut->overlapping++;
+        else if (is_near(&s, &lower->elem[i], &cut->meets))
+            cut->near++;
+        else
+            continue;
+        cut->gone[i] = true;
+    }
+    cut->meets |= cut->overlapping > 0;
+    enum hm_err err = cut->meets ? trim(lower, cut, d) : HM_OK;
+    if (err)
+        hm_cut_free(cut);
+    return err;
+}
+
+void hm_cut_free(struct hm_cut *cut)
+{
+    free(cut->gone);
+    *cut = (struct hm_cut){0};
+}

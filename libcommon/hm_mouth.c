@@ -1,0 +1,207 @@
+/* hm_mouth: the ends of the lower mesh's outline at the higher mesh's border. */
+#include "hm_outline_parts.h"
+
+#include "hm_plane.h"
+#include "hm_pred.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* A notch between the outline and the higher border must be no narrower than this, since other
+ * elements may have to fill it; nor, in a sharp junction, than this part of the junction's angle.
+ */
+static const double notch_degrees = 20, notch_part = 0.6;
+
+/* How many nodes of the outline may be left out at its end, to get a better one. */
+enum { MOST_TRIMMED = 12 };
+
+/* --- mouths: the stretches of the higher border inside the lower mesh --- */
+
+/* Crossings with their numbers, to be sorted along the higher border. */
+struct along {
+    size_t edge;
+    double at;
+    size_t number;
+};
+
+static int by_place(const void *pa, const void *pb)
+{
+    const struct along *a = pa, *b = pb;
+    if (a->edge != b->edge)
+        return a->edge < b->edge ? -1 : 1;
+    if (a->at != b->at)
+        return a->at < b->at ? -1 : 1;
+    return (a->number > b->number) - (a->number < b->number);
+}
+
+/* The higher border's node next to a crossing on the inner side of the mouth, as place in it. */
+static size_t inner_place(const struct hm_border *h, const struct hm_crossing *x)
+{
+    if (x->enter)
+        return x->at >= 1 ? h->next[x->edge] : x->edge;
+    return x->at <= 0 ? x->edge : h->next[x->edge];
+}
+
+static size_t place_before(const struct hm_border *h, const size_t *prev, size_t place, bool back)
+{
+    return back ? prev[place] : h->next[place];
+}
+
+/* Attach a crossing to the border's node at `place`; beyond lies away from the mouth: back along
+ * the border where the mouth begins (the outline leaves), onward where it ends. */
+static void attach(const struct hm_border *h, const size_t *prev, struct hm_crossing *x,
+                   size_t place)
+{
+    x->attach = h->loops.node[place];
+    x->beyond = h->loops.node[place_before(h, prev, place, !x->enter)];
+}
+
+static double distance_from(const struct hm_border *h, const struct hm_crossing *x, size_t place)
+{
+    const double *a = hm_border_from(h, x->edge), *b = hm_border_to(h, x->edge);
+    const double *p = hm_border_from(h, place);
+    return hypot(a[0] + x->at * (b[0] - a[0]) - p[0], a[1] + x->at * (b[1] - a[1]) - p[1]);
+}
+
+/* A mouth from crossing `begin` to crossing `end` needs two nodes. With fewer inside, the nodes
+ * beside it are taken: with one, at the side where that is nearer. True when so. */
+static bool widen(const struct hm_border *h, const size_t *prev, struct hm_crossing *begin,
+                  struct hm_crossing *end)
+{
+    size_t first = inner_place(h, begin), last = inner_place(h, end);
+    bool none = first == h->next[last] && begin->edge == end->edge && begin->at <= end->at;
+    if (first != last && !none)
+        return false;
+    size_t before = prev[first], behind = h->next[last];
+    bool at_begin = distance_from(h, begin, before) < distance_from(h, end, behind);
+    if (none || at_begin)
+        attach(h, prev, begin, before);
+    if (none || !at_begin)
+        attach(h, prev, end, behind);
+    return true;
+}
+
+enum hm_err hm_chains_find_mouths(struct hm_chains *c, const struct hm_border *h, int64_t *widened,
+                                  struct hm_diag *d)
+{
+    struct along *order = hm_alloc(c->ncrossings, sizeof *order);
+    size_t *prev = hm_alloc(h->n, sizeof *prev);
+    if (!order || !prev) {
+        free(order);
+        free(prev);
+        return hm_fail_memory(d);
+    }
+    for (size_t i = 0; i < h->n; i++)
+        prev[h->next[i]] = i;
+    for (size_t i = 0; i < c->ncrossings; i++) {
+        struct hm_crossing *x = &c->crossing[i];
+        order[i] = (struct along){x->edge, x->at, i};
+        attach(h, prev, x, inner_place(h, x));
+    }
+    if (c->ncrossings > 0)
+        qsort(order, c->ncrossings, sizeof *order, by_place);
+    for (size_t k = 0, i = 0; k < h->loops.nloops; k++) {
+        size_t begin = i;
+        while (i < c->ncrossings && order[i].edge < h->loops.start[k + 1])
+            i++;
+        for (size_t j = begin; j < i; j++) {
+            struct hm_crossing *end = &c->crossing[order[j].number];
+            struct hm_crossing *start = &c->crossing[order[j > begin ? j - 1 : i - 1].number];
+            if (end->enter && !start->enter)
+                *widened += widen(h, prev, start, end);
+        }
+    }
+    free(order);
+    free(prev);
+    return HM_OK;
+}
+
+/* --- the outline's last node --- */
+
+/* Does the way from p to q, which is allowed to end at nodes of the border, meet it elsewhere? */
+static bool is_hidden(const struct hm_border *b, const double *p, const double *q)
+{
+    struct hm_boxquery query = hm_boxtree_find(b->tree, hm_box_of(p, q));
+    for (int32_t k; (k = hm_boxtree_next(&query)) >= 0;) {
+        const double *from = hm_border_from(b, (size_t)k), *to = hm_border_to(b, (size_t)k);
+        const double *end = NULL, *other = NULL; /* the end of the way that is a node of the edge */
+        for (int i = 0; i < 4; i++) {
+            const double *mine = i & 1 ? p : q, *theirs = i & 2 ? from : to;
+            if (mine[0] == theirs[0] && mine[1] == theirs[1]) {
+                end = mine;
+                other = i & 2 ? to : from;
+            }
+        }
+        if (!end) {
+            if (hm_plane_meet(p, q, from, to))
+                return true;
+        } else if (hm_pred_orient(p, q, other) == 0 &&
+                   hm_plane_angle(end, end == p ? q : p, other) < 90) {
+            return true; /* along the edge */
+        }
+    }
+    return false;
+}
+
+static bool crosses(const struct hm_border *b, const double *p, const double *q)
+{
+    struct hm_boxquery query = hm_boxtree_find(b->tree, hm_box_of(p, q));
+    for (int32_t k; (k = hm_boxtree_next(&query)) >= 0;)
+        if (hm_plane_cross(p, q, hm_border_from(b, (size_t)k), hm_border_to(b, (size_t)k)))
+            return true;
+    return false;
+}
+
+/* What speaks against ending the outline at node `j`, counted from the crossing; INT_MAX: it cannot
+ * be. node(k) is node[k * step]. */
+static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t step, size_t j,
+                     double notch, const struct hm_seam_sides *s)
+{
+    int32_t last = node[(ptrdiff_t)j * step];
+    const double *p = &s->lower->node[last].x, *r = &s->higher->mesh->node[x->attach].x;
+    const double *beyond = &s->higher->mesh->node[x->beyond].x;
+    if (is_hidden(s->higher, p, r) || is_hidden(s->rest, p, r))
+        return INT_MAX;
+    int against = 0;
+    bool out = crosses(s->outline, p, r);
+    for (size_t k = 0; k < j; k++) { /* nodes left out must lie outside the new outline */
+        int turn = hm_pred_orient(p, r, &s->lower->node[node[(ptrdiff_t)k * step]].x);
+        out |= x->enter ? turn > 0 : turn < 0;
+    }
+    if (out)
+        against += 4;
+    if (hm_plane_angle(r, beyond, p) < notch)
+        against += 2;
+    if (!s->kept[last] && hypot(r[0] - p[0], r[1] - p[1]) < HM_SEAM_CLEAR * s->size[last])
+        against += 1;
+    return against;
+}
+
+enum hm_err hm_chain_attach(const struct hm_chains *c, const struct hm_chain *chain, bool at_end,
+                            const struct hm_seam_sides *s, size_t limit, size_t *found,
+                            struct hm_diag *d)
+{
+    const struct hm_crossing *x = &c->crossing[at_end ? chain->to : chain->from];
+    const int32_t *node = c->node + chain->first + (at_end ? chain->count - 1 : 0);
+    const double *a = hm_border_from(s->higher, x->edge), *b = hm_border_to(s->higher, x->edge);
+    const double place[2] = {a[0] + x->at * (b[0] - a[0]), a[1] + x->at * (b[1] - a[1])};
+    double junction =
+        hm_plane_angle(place, &s->higher->mesh->node[x->beyond].x, &s->lower->node[*node].x);
+    double notch = fmin(notch_degrees, notch_part * junction);
+    int least = INT_MAX;
+    for (size_t j = 0; j < limit && j < MOST_TRIMMED && least > 0; j++) {
+        int against = objection(x, node, at_end ? -1 : 1, j, notch, s);
+        if (against < least) {
+            least = against;
+            *found = at_end ? chain->count - 1 - j : j;
+        }
+        if (s->kept[node[at_end ? -(ptrdiff_t)j : (ptrdiff_t)j]])
+            break; /* a node of an element that stays cannot be left out */
+    }
+    if (least < INT_MAX)
+        return HM_OK;
+    return hm_fail_at(d, HM_EGEOM, place[0], place[1],
+                      "no way to join the outline to the mesh of higher priority; "
+                      "try another buffer");
+}

@@ -1,0 +1,201 @@
+#include "hm_outline.h"
+
+#include "hm_outline_parts.h"
+
+#include <stdlib.h>
+
+/* Walking the lower mesh's old outline for the stretches along the gap. */
+struct walk {
+    const struct hm_seam_sides *s;
+    struct hm_chains *chains;
+    int32_t *rest_next; /* of lower's nodes: the next one on the border of the rest, or -1 */
+    bool open;          /* the last chain is being added to */
+    struct hm_diag *d;
+};
+
+static enum hm_err open_chain(struct walk *w, int64_t from)
+{
+    struct hm_chains *c = w->chains;
+    if (!hm_grow(&c->chain, &c->chain_cap, c->nchains + 1, sizeof *c->chain))
+        return hm_fail_memory(w->d);
+    c->chain[c->nchains++] = (struct hm_chain){.first = c->nnodes, .from = from, .to = -1};
+    w->open = true;
+    return HM_OK;
+}
+
+static enum hm_err append(struct walk *w, int32_t node)
+{
+    struct hm_chains *c = w->chains;
+    if (!hm_grow(&c->node, &c->node_cap, c->nnodes + 1, sizeof *c->node))
+        return hm_fail_memory(w->d);
+    c->node[c->nnodes++] = node;
+    c->chain[c->nchains - 1].count++;
+    return HM_OK;
+}
+
+/* The crossing of the outline's edge p–q with the higher border: the first or the last one. */
+static enum hm_err add_crossing(struct walk *w, int32_t p, int32_t q, bool enter)
+{
+    struct hm_chains *c = w->chains;
+    if (!hm_grow(&c->crossing, &c->crossing_cap, c->ncrossings + 1, sizeof *c->crossing))
+        return hm_fail_memory(w->d);
+    struct hm_crossing *x = &c->crossing[c->ncrossings];
+    const double *from = &w->s->lower->node[p].x, *to = &w->s->lower->node[q].x;
+    *x = (struct hm_crossing){.enter = enter};
+    if (!hm_border_meeting(w->s->higher, from, to, !enter, &x->edge, &x->at))
+        return hm_fail_at(w->d, HM_EGEOM, from[0], from[1], "the outline cannot be followed");
+    c->ncrossings++;
+    return HM_OK;
+}
+
+static bool inside(const struct walk *w, int32_t node)
+{
+    return hm_locate_element(w->s->in_higher, w->s->lower->node[node].x,
+                             w->s->lower->node[node].y) >= 0;
+}
+
+/* Does edge i of the outline, whose ends are outside the higher mesh, pass through it? */
+static bool passes(const struct walk *w, size_t i)
+{
+    size_t edge;
+    double at;
+    const struct hm_border *o = w->s->outline;
+    return hm_border_meeting(w->s->higher, hm_border_from(o, i), hm_border_to(o, i), false, &edge,
+                             &at);
+}
+
+static bool is_kept(const struct walk *w, size_t i)
+{
+    const struct hm_border *o = w->s->outline;
+    return w->rest_next[o->loops.node[i]] == o->loops.node[o->next[i]];
+}
+
+/* One edge of the outline. The edge at which a loop is entered comes twice: at first only what
+ * begins on it counts, at last only what ends. */
+static enum hm_err walk_edge(struct walk *w, size_t i, bool first, bool last)
+{
+    enum hm_err err = HM_OK;
+    int32_t p = w->s->outline->loops.node[i];
+    int32_t q = w->s->outline->loops.node[w->s->outline->next[i]];
+    if (is_kept(w, i)) {
+        w->open = false;
+        return HM_OK;
+    }
+    bool in_p = inside(w, p), in_q = inside(w, q);
+    bool through = !in_p && !in_q && passes(w, i);
+    if (!in_p && !w->open && !first && !last && !(err = open_chain(w, -1)))
+        err = append(w, p);
+    if (!err && !in_p && (in_q || through) && w->open) {
+        err = add_crossing(w, p, q, true);
+        w->chains->chain[w->chains->nchains - 1].to = (int64_t)w->chains->ncrossings - 1;
+        w->open = false;
+    }
+    if (!err && !in_q && (in_p || through) && !last && !(err = add_crossing(w, p, q, false)))
+        err = open_chain(w, (int64_t)w->chains->ncrossings - 1);
+    if (!err && !in_q && !last)
+        err = append(w, q);
+    return err;
+}
+
+static enum hm_err walk_whole(struct walk *w, size_t begin, size_t end)
+{
+    enum hm_err err = open_chain(w, -1);
+    for (size_t i = begin; !err && i < end; i++)
+        err = append(w, w->s->outline->loops.node[i]);
+    w->chains->chain[w->chains->nchains - 1].closed = true;
+    w->open = false;
+    return err;
+}
+
+/* A loop is entered at an edge where no chain can be open: one that is kept, or begins inside the
+ * higher mesh, or passes through that. Without any such edge it is all chain. */
+static enum hm_err walk_loop(struct walk *w, size_t begin, size_t end)
+{
+    size_t start = begin;
+    while (start < end && !is_kept(w, start) && !inside(w, w->s->outline->loops.node[start]) &&
+           !passes(w, start))
+        start++;
+    if (start == end)
+        return walk_whole(w, begin, end);
+    enum hm_err err = HM_OK;
+    size_t i = start;
+    for (size_t step = 0; !err && step <= end - begin; step++) {
+        err = walk_edge(w, i, step == 0, step == end - begin);
+        i = w->s->outline->next[i];
+    }
+    return err;
+}
+
+static enum hm_err find_chains(struct hm_chains *c, const struct hm_seam_sides *s,
+                               struct hm_diag *d)
+{
+    struct walk w = {.s = s, .chains = c, .d = d};
+    w.rest_next = hm_alloc(s->lower->nnodes, sizeof *w.rest_next);
+    if (!w.rest_next)
+        return hm_fail_memory(d);
+    for (size_t i = 0; i < s->lower->nnodes; i++)
+        w.rest_next[i] = -1;
+    for (size_t i = 0; i < s->rest->n; i++)
+        w.rest_next[s->rest->loops.node[i]] = s->rest->loops.node[s->rest->next[i]];
+    enum hm_err err = HM_OK;
+    const struct hm_mesh_loops *loops = &s->outline->loops;
+    for (size_t k = 0; !err && k < loops->nloops; k++)
+        err = walk_loop(&w, loops->start[k], loops->start[k + 1]);
+    free(w.rest_next);
+    return err;
+}
+
+static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struct hm_diag *d)
+{
+    if (!hm_grow(&o->segment, &o->cap, o->n + 1, sizeof *o->segment))
+        return hm_fail_memory(d);
+    o->segment[o->n++] = (struct hm_seam_segment){a, b};
+    return HM_OK;
+}
+
+/* The segments of one chain, from the node where it leaves the higher mesh, if it does, to the one
+ * where it ends there. */
+static enum hm_err add_chain(struct hm_outline *o, const struct hm_chains *c,
+                             const struct hm_chain *chain, const struct hm_seam_sides *s,
+                             struct hm_diag *d)
+{
+    size_t first = 0, last = chain->count - 1;
+    enum hm_err err = HM_OK;
+    if (chain->from >= 0)
+        err = hm_chain_attach(c, chain, false, s, chain->count, &first, d);
+    if (!err && chain->to >= 0)
+        err = hm_chain_attach(c, chain, true, s, chain->count - first, &last, d);
+    const int32_t *node = c->node + chain->first;
+    if (!err && chain->from >= 0)
+        err = add_segment(o, c->crossing[chain->from].attach, ~node[first], d);
+    for (size_t i = first; !err && i < last; i++)
+        err = add_segment(o, ~node[i], ~node[i + 1], d);
+    if (!err && chain->closed)
+        err = add_segment(o, ~node[last], ~node[first], d);
+    if (!err && chain->to >= 0)
+        err = add_segment(o, ~node[last], c->crossing[chain->to].attach, d);
+    return err;
+}
+
+enum hm_err hm_outline_make(struct hm_outline *o, const struct hm_seam_sides *s, struct hm_diag *d)
+{
+    *o = (struct hm_outline){0};
+    struct hm_chains c = {0};
+    enum hm_err err = find_chains(&c, s, d);
+    if (!err)
+        err = hm_chains_find_mouths(&c, s->higher, &o->widened, d);
+    for (size_t i = 0; !err && i < c.nchains; i++)
+        err = add_chain(o, &c, &c.chain[i], s, d);
+    free(c.chain);
+    free(c.node);
+    free(c.crossing);
+    if (err)
+        hm_outline_free(o);
+    return err;
+}
+
+void hm_outline_free(struct hm_outline *o)
+{
+    free(o->segment);
+    *o = (struct hm_outline){0};
+}

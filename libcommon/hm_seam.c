@@ -1,0 +1,357 @@
+#include "hm_seam.h"
+
+#include "hm_elem.h"
+#include "hm_plane.h"
+#include "hm_tri.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Inner nodes keep this part of their size away from the outer sides of the gap. */
+static const double side_clear = 0.4;
+
+enum { MARK = 1, OUTSIDE = 1 }; /* the mark of all constraints; the region beyond the hull */
+
+/* All that belongs to one gap. */
+struct gap {
+    struct hm_seam_sides s;
+    struct hm_border outline, rest;
+    struct hm_mesh kept; /* the elements that stay, on the lower mesh's nodes */
+    double *size;
+    bool *used; /* nodes of kept elements */
+    struct hm_outline sides;
+    int32_t *slot[2]; /* input number of a node of the higher and of the lower mesh, or -1 */
+    int32_t *node;    /* inputs of the triangulation: nodes as in hm_seam_triangle */
+    double (*xy)[2];
+    size_t n, cap, xy_cap;
+    struct hm_tri_segment *segment;
+    size_t nsegments, segment_cap;
+    struct hm_tri *tri;
+};
+
+/* --- what there is: elements that stay, sizes, borders --- */
+
+static enum hm_err measure(struct gap *g, const struct hm_mesh *lower, const bool *gone,
+                           struct hm_diag *d)
+{
+    int32_t *elements = hm_alloc0(lower->nnodes, sizeof *elements);
+    g->size = hm_alloc0(lower->nnodes, sizeof *g->size);
+    g->used = hm_alloc0(lower->nnodes, sizeof *g->used);
+    g->kept = (struct hm_mesh){.node = lower->node, .nnodes = lower->nnodes};
+    g->kept.elem = hm_alloc(lower->nelems, sizeof *g->kept.elem);
+    if (!elements || !g->size || !g->used || !g->kept.elem) {
+        free(elements);
+        return hm_fail_memory(d);
+    }
+    for (size_t i = 0; i < lower->nelems; i++) {
+        const struct hm_elem *e = &lower->elem[i];
+        double length = hm_elem_mean_edge(lower, e);
+        for (int k = 0; k < hm_elem_corners(e); k++) {
+            g->size[e->node[k]] += length;
+            elements[e->node[k]]++;
+            g->used[e->node[k]] |= !gone[i];
+        }
+        if (!gone[i])
+            g->kept.elem[g->kept.nelems++] = *e;
+    }
+    for (size_t i = 0; i < lower->nnodes; i++)
+        if (elements[i] > 0)
+            g->size[i] /= elements[i];
+    free(elements);
+    return HM_OK;
+}
+
+static enum hm_err prepare(struct gap *g, const struct hm_border *higher,
+                           const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                           const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d)
+{
+    enum hm_err err = measure(g, lower, gone, d);
+    if (!err)
+        err = hm_border_build(&g->outline, lower, d);
+    if (!err)
+        err = hm_border_build(&g->rest, &g->kept, d);
+    if (err)
+        return err;
+    g->s = (struct hm_seam_sides){.higher = higher,
+                                  .in_higher = in_higher,
+                                  .lower = lower,
+                                  .in_lower = in_lower,
+                                  .gone = gone,
+                                  .outline = &g->outline,
+                                  .rest = &g->rest,
+                                  .size = g->size,
+                                  .kept = g->used};
+    return hm_outline_make(&g->sides, &g->s, d);
+}
+
+/* --- what the triangulation is made of --- */
+
+static enum hm_err add_input(struct gap *g, int32_t node, struct hm_diag *d)
+{
+    int32_t *slot = node >= 0 ? &g->slot[0][node] : &g->slot[1][~node];
+    if (*slot >= 0)
+        return HM_OK;
+    if (!hm_grow(&g->node, &g->cap, g->n + 1, sizeof *g->node) ||
+        !hm_grow(&g->xy, &g->xy_cap, g->n + 1, sizeof *g->xy))
+        return hm_fail_memory(d);
+    memcpy(g->xy[g->n], hm_seam_xy(&g->s, node), sizeof g->xy[g->n]);
+    g->node[g->n] = node;
+    *slot = (int32_t)g->n++;
+    return HM_OK;
+}
+
+static int32_t slot_of(const struct gap *g, int32_t node)
+{
+    return node >= 0 ? g->slot[0][node] : g->slot[1][~node];
+}
+
+static enum hm_err add_segment(struct gap *g, int32_t a, int32_t b, struct hm_diag *d)
+{
+    enum hm_err err = add_input(g, a, d);
+    if (!err)
+        err = add_input(g, b, d);
+    if (!err && !hm_grow(&g->segment, &g->segment_cap, g->nsegments + 1, sizeof *g->segment))
+        err = hm_fail_memory(d);
+    if (!err)
+        g->segment[g->nsegments++] =
+            (struct hm_tri_segment){slot_of(g, a), slot_of(g, b), MARK}; /* inputs as yet */
+    return err;
+}
+
+static enum hm_err add_border(struct gap *g, const struct hm_border *b, bool lower,
+                              struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (size_t i = 0; !err && i < b->n; i++) {
+        int32_t from = b->loops.node[i], to = b->loops.node[b->next[i]];
+        err = add_segment(g, lower ? ~from : from, lower ? ~to : to, d);
+    }
+    return err;
+}
+
+/* Is a node of the lower mesh, with its elements gone, good for the inside of the gap? */
+static bool is_free(const struct gap *g, const struct hm_boxtree *sides, int32_t node)
+{
+    const double *p = &g->s.lower->node[node].x, size = g->size[node];
+    if (g->used[node] || size == 0 || g->slot[1][node] >= 0 ||
+        hm_locate_element(g->s.in_higher, p[0], p[1]) >= 0 ||
+        hm_border_is_near(g->s.higher, p, HM_SEAM_CLEAR, size))
+        return false;
+    struct hm_boxquery q = hm_boxtree_find(sides, hm_box_grown(hm_box_of(p, p), side_clear * size));
+    for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;) {
+        const struct hm_seam_segment *side = &g->sides.segment[i];
+        if (hm_plane_distance(p, hm_seam_xy(&g->s, side->a), hm_seam_xy(&g->s, side->b)) <
+            side_clear * size)
+            return false;
+    }
+    return true;
+}
+
+/* The nodes of the lower mesh's old outline: they are used by the gap's outer sides, or not. */
+static bool *outline_nodes(const struct gap *g)
+{
+    bool *outer = hm_alloc0(g->s.lower->nnodes, sizeof *outer);
+    for (size_t i = 0; outer && i < g->outline.n; i++)
+        outer[g->outline.loops.node[i]] = true;
+    return outer;
+}
+
+static enum hm_err add_free_nodes(struct gap *g, struct hm_diag *d)
+{
+    struct hm_boxtree *sides = NULL;
+    struct hm_box *box = hm_alloc(g->sides.n, sizeof *box);
+    bool *outer = outline_nodes(g);
+    enum hm_err err = box && outer ? HM_OK : hm_fail_memory(d);
+    for (size_t i = 0; !err && i < g->sides.n; i++)
+        box[i] = hm_box_of(hm_seam_xy(&g->s, g->sides.segment[i].a),
+                           hm_seam_xy(&g->s, g->sides.segment[i].b));
+    if (!err)
+        err = hm_boxtree_build(&sides, box, g->sides.n, d);
+    for (size_t i = 0; !err && i < g->s.lower->nnodes; i++)
+        if (!outer[i] && is_free(g, sides, (int32_t)i))
+            err = add_input(g, ~(int32_t)i, d);
+    hm_boxtree_free(sides);
+    free(box);
+    free(outer);
+    return err;
+}
+
+static enum hm_err clear_slots(struct gap *g, struct hm_diag *d)
+{
+    size_t n[2] = {g->s.higher->mesh->nnodes, g->s.lower->nnodes};
+    for (int k = 0; k < 2; k++) {
+        g->slot[k] = hm_alloc(n[k], sizeof *g->slot[k]);
+        if (!g->slot[k])
+            return hm_fail_memory(d);
+        for (size_t i = 0; i < n[k]; i++)
+            g->slot[k][i] = -1;
+    }
+    return HM_OK;
+}
+
+static enum hm_err triangulate(struct gap *g, struct hm_diag *d)
+{
+    enum hm_err err = clear_slots(g, d);
+    if (!err)
+        err = add_border(g, g->s.higher, false, d);
+    if (!err)
+        err = add_border(g, &g->rest, true, d);
+    for (size_t i = 0; !err && i < g->sides.n; i++)
+        err = add_segment(g, g->sides.segment[i].a, g->sides.segment[i].b, d);
+    if (!err)
+        err = add_free_nodes(g, d);
+    if (!err)
+        err = hm_tri_build(&g->tri, &g->xy[0][0], g->n, 2, 1, d);
+    if (err)
+        return err;
+    for (size_t i = 0; i < g->nsegments; i++) {
+        struct hm_tri_segment *s = &g->segment[i];
+        s->a = hm_tri_of_input(g->tri, (size_t)s->a);
+        s->b = hm_tri_of_input(g->tri, (size_t)s->b);
+    }
+    return hm_tri_constrain(g->tri, g->segment, g->nsegments, NULL, d);
+}
+
+/* --- which triangles fill the gap --- */
+
+static void centre(const struct hm_tri *t, int32_t k, double xy[2])
+{
+    const double *a = hm_tri_xy(t, hm_tri_org(t, 3 * k)), *b = hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
+                 *c = hm_tri_xy(t, hm_tri_apex(t, 3 * k));
+    xy[0] = a[0] + ((b[0] - a[0]) + (c[0] - a[0])) / 3;
+    xy[1] = a[1] + ((b[1] - a[1]) + (c[1] - a[1])) / 3;
+}
+
+static double area_of(const struct hm_tri *t, int32_t k)
+{
+    const double *a = hm_tri_xy(t, hm_tri_org(t, 3 * k)), *b = hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
+                 *c = hm_tri_xy(t, hm_tri_apex(t, 3 * k));
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Regions of triangles between constraints, numbered from 2; what hangs together with the outside
+ * of the hull is OUTSIDE. */
+static enum hm_err number_regions(struct hm_tri *t, int32_t *regions, struct hm_diag *d)
+{
+    int32_t n = OUTSIDE;
+    enum hm_err err = HM_OK;
+    for (int32_t e = 0; !err && e < 3 * hm_tri_triangles(t); e++) {
+        if (!hm_tri_is_solid(t, e / 3) || hm_tri_is_solid(t, hm_tri_twin(t, e) / 3))
+            continue;
+        err = hm_tri_flood(t, hm_tri_twin(t, e) / 3, MARK, OUTSIDE, d);
+        break;
+    }
+    for (int32_t k = 0; !err && k < hm_tri_triangles(t); k++)
+        if (hm_tri_is_solid(t, k) && hm_tri_region(t, k) == 0)
+            err = hm_tri_flood(t, k, MARK, ++n, d);
+    *regions = n + 1;
+    return err;
+}
+
+/* A region is gap when the middle of its largest triangle lies where elements were cut away, and
+ * not in the higher mesh: so near nothing that rounding could matter. */
+static bool is_gap(const struct gap *g, int32_t largest)
+{
+    double p[2];
+    centre(g->tri, largest, p);
+    int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
+    return was >= 0 && g->s.gone[was] && hm_locate_element(g->s.in_higher, p[0], p[1]) < 0;
+}
+
+static enum hm_err find_gaps(const struct gap *g, int32_t regions, bool *gap, struct hm_diag *d)
+{
+    const struct hm_tri *t = g->tri;
+    int32_t *largest = hm_alloc((size_t)regions, sizeof *largest);
+    if (!largest)
+        return hm_fail_memory(d);
+    for (int32_t r = 0; r < regions; r++)
+        largest[r] = HM_TRI_NONE;
+    for (int32_t k = 0; k < hm_tri_triangles(t); k++) {
+        if (!hm_tri_is_solid(t, k))
+            continue;
+        int32_t *best = &largest[hm_tri_region(t, k)];
+        if (*best == HM_TRI_NONE || area_of(t, k) > area_of(t, *best))
+            *best = k;
+    }
+    for (int32_t r = OUTSIDE + 1; r < regions; r++)
+        gap[r] = largest[r] != HM_TRI_NONE && is_gap(g, largest[r]);
+    free(largest);
+    return HM_OK;
+}
+
+static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t region,
+                                 struct hm_seam *seam, struct hm_diag *d)
+{
+    struct hm_seam_triangle *tri;
+    if (!hm_grow(&seam->triangle, &seam->cap, seam->n + 1, sizeof *seam->triangle))
+        return hm_fail_memory(d);
+    tri = &seam->triangle[seam->n++];
+    double p[2];
+    centre(g->tri, k, p);
+    int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
+    tri->region = was >= 0 ? g->s.lower->elem[was].region : region;
+    const int32_t corner[3] = {hm_tri_org(g->tri, 3 * k), hm_tri_dest(g->tri, 3 * k),
+                               hm_tri_apex(g->tri, 3 * k)};
+    for (int i = 0; i < 3; i++) {
+        int64_t input = hm_tri_input(g->tri, corner[i]);
+        const double *at = hm_tri_xy(g->tri, corner[i]);
+        if (input < 0)
+            return hm_fail_at(d, HM_EGEOM, at[0], at[1],
+                              "the sides of the gap cross each other; try another buffer");
+        tri->node[i] = g->node[input];
+    }
+    return HM_OK;
+}
+
+static enum hm_err take_gaps(const struct gap *g, struct hm_seam *seam, struct hm_diag *d)
+{
+    int32_t regions;
+    enum hm_err err = number_regions(g->tri, &regions, d);
+    if (err)
+        return err;
+    bool *gap = hm_alloc0((size_t)regions, sizeof *gap);
+    if (!gap)
+        return hm_fail_memory(d);
+    err = find_gaps(g, regions, gap, d);
+    for (int32_t k = 0; !err && k < hm_tri_triangles(g->tri); k++)
+        if (hm_tri_is_solid(g->tri, k) && gap[hm_tri_region(g->tri, k)])
+            err = take_triangle(g, k, g->s.lower->elem[0].region, seam, d);
+    free(gap);
+    return err;
+}
+
+enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
+                         const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                         const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d)
+{
+    *seam = (struct hm_seam){0};
+    struct gap g = {0};
+    enum hm_err err = prepare(&g, higher, in_higher, lower, in_lower, gone, d);
+    if (!err)
+        err = triangulate(&g, d);
+    if (!err)
+        err = take_gaps(&g, seam, d);
+    seam->widened = g.sides.widened;
+    hm_tri_free(g.tri);
+    hm_outline_free(&g.sides);
+    hm_border_free(&g.outline);
+    hm_border_free(&g.rest);
+    free(g.kept.elem);
+    free(g.size);
+    free(g.used);
+    free(g.slot[0]);
+    free(g.slot[1]);
+    free(g.node);
+    free(g.xy);
+    free(g.segment);
+    if (err)
+        hm_seam_free(seam);
+    return err;
+}
+
+void hm_seam_free(struct hm_seam *seam)
+{
+    free(seam->triangle);
+    *seam = (struct hm_seam){0};
+}

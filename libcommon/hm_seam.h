@@ -1,0 +1,31 @@
+/* hm_seam: filling the gap between two meshes with triangles. Layer 7, on outlines and
+ * triangulation.
+ *
+ * The gap is what the elements cut away from the lower mesh covered beyond the higher one. It is
+ * filled by constrained Delaunay triangulation between the two borders, without a new node on
+ * either. Where it is wide, and along its outer sides, nodes of the lower mesh that lost their
+ * elements are used again, with the heights of its surface.
+ */
+#ifndef HM_SEAM_H
+#define HM_SEAM_H
+
+#include "hm_outline.h"
+
+struct hm_seam_triangle {
+    int32_t node[3]; /* counter-clockwise; a node of the higher mesh, or ~node of the lower */
+    int32_t region;  /* of the lower mesh's element that was there */
+};
+
+struct hm_seam {
+    struct hm_seam_triangle *triangle;
+    size_t n, cap;
+    int64_t widened; /* mouths of the lower mesh, widened to nodes beside them */
+};
+
+/* Fill the gap that elements `gone` of the lower mesh leave. Of each mesh also its location. */
+enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
+                         const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                         const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d);
+void hm_seam_free(struct hm_seam *seam);
+
+#endif

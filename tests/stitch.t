@@ -1,0 +1,228 @@
+#!/bin/sh
+# stitch: channels that cross, join, touch and miss each other; meshes joined node by node.
+. "${0%/*}/tap.sh"
+
+# channel NAME X0 Y0 X1 Y1 WIDTH ALONG ACROSS [quads|triangles [ROLE]]: a straight regular mesh
+channel() {
+    awk -v name="$1" -v x0="$2" -v y0="$3" -v x1="$4" -v y1="$5" -v width="$6" -v along="$7" \
+        -v across="$8" -v kind="${9:-triangles}" -v role="${10:-regular}" 'BEGIN {
+        length_ = sqrt((x1 - x0) ^ 2 + (y1 - y0) ^ 2)
+        n = int(length_ / along + .5); m = int(width / across + .5)
+        ux = (x1 - x0) / length_; uy = (y1 - y0) / length_
+        printf "#hm 1 mesh text\n#name %s\n#role %s\n%s#units m m m\n#data\n", name, role,
+            role == "regular" ? "#owners " name "\n" : ""
+        for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
+            s = length_ * i / n; t = width * (j / m - .5)
+            x = x0 + ux * s - uy * t; y = y0 + uy * s + ux * t
+            printf "v %.9g %.9g %.9g %d %d\n", x, y, .01 * x - .02 * y + 5,
+                i == 0 || j == 0 || i == n || j == m, role == "regular"
+        }
+        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+            a = j * (n + 1) + i; b = a + 1; c = b + n + 1; d = a + n + 1
+            if (kind == "quads") printf "q %d %d %d %d 0\n", a, b, c, d
+            else if ((i + j) % 2) printf "t %d %d %d 0\nt %d %d %d 0\n", a, b, c, a, c, d
+            else printf "t %d %d %d 0\nt %d %d %d 0\n", a, b, d, b, c, d
+        }
+        print "#end" }'
+}
+
+area() { # of the elements of a mesh
+    awk '/^v/ { x[n + 0] = $2; y[n++] = $3 }
+        /^[tq]/ { k = /^t/ ? 3 : 4
+            for (i = 0; i < k; i++) { a = $(2 + i); b = $(2 + (i + 1) % k); s += x[a] * y[b] - x[b] * y[a] } }
+        END { printf "%.17g", s / 2 }' "$1"
+}
+
+elements() { # one line an element, by coordinates, from its lowest corner on
+    awk '/^v/ { p[n++ + 0] = $2 "," $3 }
+        /^[tq]/ { k = /^t/ ? 3 : 4; low = 0
+            for (i = 1; i < k; i++) if (p[$(2 + i)] < p[$(2 + low)]) low = i
+            line = ""; for (i = 0; i < k; i++) line = line " " p[$(2 + (low + i) % k)]
+            print line }' "$@" | sort
+}
+
+nodes() { # x, y and z of all nodes
+    awk '/^v/ { print $2, $3, $4 }' "$@" | sort -u
+}
+
+# An independent look: positive areas, edges used once each way, all nodes used, one piece (Euler:
+# nodes - edges + elements = pieces - holes, with HOLES given).
+sound() {
+    awk -v holes="${2:-0}" -v pieces="${3:-1}" '/^v/ { x[n + 0] = $2; y[n++] = $3 }
+        /^[tq]/ { k = /^t/ ? 3 : 4; elements++; s = 0
+            for (i = 0; i < k; i++) {
+                a = $(2 + i); b = $(2 + (i + 1) % k); used[a] = 1
+                if (++edge[a, b] > 1) { print "edge twice", a, b; bad = 1 }
+                if (!((b, a) in edge)) edges++
+                s += x[a] * y[b] - x[b] * y[a] }
+            if (s <= 0) { print "area", $0; bad = 1 } }
+        END { for (i = 0; i < n; i++) if (!(i in used)) { print "unused", i; bad = 1 }
+            if (n - edges + elements != pieces - holes) { print "Euler", n - edges + elements; bad = 1 }
+            exit bad }' "$1"
+}
+
+# joined NAME RESULT HIGHER LOWER [HOLES [PIECES]]: sound; no node but theirs; the higher mesh whole
+joined() {
+    ok "$1: sound" sound "$2" "${5:-0}" "${6:-1}"
+    nodes "$2" >got.nodes
+    nodes "$3" "$4" >their.nodes
+    ok "$1: no node is new" sh -c '! comm -23 got.nodes their.nodes | grep .'
+    elements "$2" >got.elements
+    elements "$3" >higher.elements
+    ok "$1: the higher mesh is whole" sh -c '! comm -13 got.elements higher.elements | grep .'
+}
+
+channel main 0 0 300 0 40 10 4 >main.hm
+
+# --- aligned with the nodes of the main channel: the union is covered exactly ---
+channel trib 150 170 150 0 20 10 4 >t.hm
+stitch main.hm t.hm >out.hm 2>said
+joined "T junction" out.hm main.hm t.hm
+true_that "T junction: area" "($(area out.hm) - 15000) ^ 2 < (1e-9 * 15000) ^ 2"
+ok "T junction: says what was cut" grep -Eq '^stitch: trib: [0-9]+ elements cut away \([0-9]+ overlap' said
+channel cross 150 170 150 -170 20 10 4 >x.hm
+stitch main.hm x.hm >out.hm 2>/dev/null
+joined "X crossing" out.hm main.hm x.hm
+true_that "X crossing: area" "($(area out.hm) - 18000) ^ 2 < (1e-9 * 18000) ^ 2"
+channel inside 100 0 200 0 20 10 4 >inside.hm
+stitch main.hm inside.hm >out.hm 2>said
+joined "wholly inside" out.hm main.hm inside.hm
+ok "wholly inside: says that nothing remains" grep -q 'nothing of it remains' said
+stitch inside.hm main.hm >out.hm 2>said
+joined "around the higher mesh" out.hm inside.hm main.hm
+true_that "around the higher mesh: area" "($(area out.hm) - 12000) ^ 2 < (1e-9 * 12000) ^ 2"
+channel touch 150 170 150 20 20 10 7 >touch.hm
+stitch main.hm touch.hm >out.hm 2>/dev/null
+joined "touching only" out.hm main.hm touch.hm
+true_that "touching only: area" "($(area out.hm) - 15000) ^ 2 < (1e-9 * 15000) ^ 2"
+
+# --- not aligned: within the union, and little is lost at the corners of the mouth ---
+channel trib 151.3 170 151.3 0 20 8 3 quads >t.hm
+stitch main.hm t.hm >out.hm 2>/dev/null
+joined "quadrilaterals, not aligned" out.hm main.hm t.hm
+true_that "not aligned: area" "$(area out.hm) <= 15000 + 1e-6 && $(area out.hm) > 14900"
+channel sharp 20 150 200 5 20 8 3 >sharp.hm
+stitch main.hm sharp.hm >out.hm 2>/dev/null
+joined "a sharp angle" out.hm main.hm sharp.hm
+channel beside 100 25 260 35 20 8 3 >beside.hm
+stitch main.hm beside.hm >out.hm 2>/dev/null
+joined "overlapping lengthwise at 4 degrees" out.hm main.hm beside.hm
+channel narrow 151 150 151 0 5 3 2.5 >narrow.hm
+stitch main.hm narrow.hm >out.hm 2>said
+joined "narrower than an edge" out.hm main.hm narrow.hm
+ok "narrower than an edge: says so" grep -q 'mouths are narrower' said
+channel big -50 3 400 3 150 11 7 quads >big.hm
+stitch main.hm big.hm >out.hm 2>/dev/null
+joined "inside a wider mesh" out.hm main.hm big.hm
+true_that "inside a wider mesh: area" "($(area out.hm) - 67500) ^ 2 < (1e-9 * 67500) ^ 2"
+for angle in 30 50 75 100 125 150; do
+    set -- $(awk -v a=$angle 'BEGIN { r = a * atan2(0, -1) / 180
+        print 147 + 160 * cos(r), 160 * sin(r), 147 - 9 * cos(r), -9 * sin(r) }')
+    channel turned "$@" 23 7 3.1 >turned.hm
+    stitch main.hm turned.hm >out.hm 2>/dev/null
+    joined "turned by $angle degrees" out.hm main.hm turned.hm
+done
+
+# --- more than two ---
+channel north 100 150 100 0 20 8 4 >north.hm
+channel south 107 -150 107 0 20 8 4 >south.hm
+stitch main.hm north.hm south.hm >out.hm 2>/dev/null
+cat north.hm south.hm >both.hm
+joined "two that enter opposite each other" out.hm main.hm both.hm
+ok "owners are numbered in order" grep -q '^#owners main north south$' out.hm
+true_that "owners: $(awk '/^v/ { n[$6]++ } END { print n[0] + 0, (n[1] > 0) (n[2] > 0) (n[3] > 0) }' out.hm)" \
+    "\"$(awk '/^v/ { n[$6]++ } END { print n[0] + 0, (n[1] > 0) (n[2] > 0) (n[3] > 0) }' out.hm)\" == \"0 111\""
+channel third 60 160 150 15 25 6 3 >third.hm
+stitch main.hm north.hm third.hm >out.hm 2>/dev/null
+cat north.hm third.hm >both.hm
+joined "three that meet, with an island between" out.hm main.hm both.hm 1
+cat main.hm north.hm third.hm | stitch >piped.hm 2>/dev/null
+same "objects of one stream, as files" out.hm piped.hm
+for j in 1 2; do stitch -j $j main.hm north.hm third.hm 2>/dev/null >threads.hm && same "the same bytes, -j $j" out.hm threads.hm; done
+true_that "role: $(grep '^#role' out.hm)" "\"$(grep '^#role' out.hm)\" == \"#role regular\""
+channel ring 60 60 240 60 20 8 4 >bridge.hm
+channel back 220 100 220 0 20 8 4 >back.hm
+cat north.hm bridge.hm back.hm >three.hm
+stitch main.hm three.hm >out.hm 2>/dev/null
+joined "four around an island" out.hm main.hm three.hm 1
+
+# --- apart ---
+channel apart 150 170 150 60 20 10 4 >apart.hm
+must_fail "meshes that do not meet are refused" 2 'piece apart.*at 1[45]|components' stitch main.hm apart.hm
+stitch -c main.hm apart.hm >out.hm 2>/dev/null
+joined "unless that is allowed" out.hm main.hm apart.hm 0 2
+channel parallel 0 32 300 32 20 8 4 >parallel.hm
+stitch -c main.hm parallel.hm >out.hm 2>said
+true_that "a channel 2 m beside is left alone: $(area out.hm)" "($(area out.hm) - 18000) ^ 2 < 1e-9"
+
+# --- buffer and terrain ---
+stitch -w 25 main.hm x.hm >wide.hm 2>/dev/null
+joined "a wide buffer" wide.hm main.hm x.hm
+true_that "a wide buffer: area" "($(area wide.hm) - 18000) ^ 2 < (1e-9 * 18000) ^ 2"
+printf '%s\n' '-500 -500 99' '-500 500 99' '500 500 99' '500 -500 99' >flat.xyz
+stitch -w 25 main.hm x.hm flat.xyz >out.hm 2>/dev/null
+true_that "the terrain gives the inside of the gap its height: $(grep -c '^v .* 99 0 2$' out.hm) nodes" \
+    "$(grep -c '^v .* 99 0 2$' out.hm) > 2 && $(grep -c '^v .* 99 1' out.hm) == 0"
+
+# --- by common nodes ---
+channel left 0 0 50 0 20 10 4 triangles irregular | sed 's/^#name .*/#name flood/; s/^\(v .*\) 0 0$/\1 2 0/' >left.hm
+channel right 50 0 100 0 20 10 4 | awk '/^v/ { $4 += 1 } { print }' >right.hm
+stitch left.hm right.hm >out.hm 2>said
+ok "side by side: sound" sound out.hm
+true_that "side by side: nodes and area $(grep -c ^v out.hm) $(area out.hm)" \
+    "$(grep -c ^v out.hm) == 66 && $(area out.hm) == 2000"
+ok "side by side: hybrid" grep -q '^#role hybrid' out.hm
+true_that "heights come from the regular mesh: $(grep -c '^v 50 .* [67][.0-9]* ' out.hm)" \
+    "$(awk '/^v 50 / && $4 > 5.99 { n++ } END { print n + 0 }' out.hm) >= 5"
+true_that "shared nodes keep the flags of both and are inside" \
+    "$(awk '/^v 50 / && ($3 > -10 && $3 < 10) && $5 % 2 == 0 && $6 == 1 { n++ } END { print n + 0 }' out.hm) == 4"
+channel right 50 0 100 0 20 10 4 >right.hm
+channel left 0 0 50 0 20 10 4 >left.hm
+stitch left.hm right.hm >out.hm 2>said
+true_that "regular meshes beside each other keep all elements: $(grep -c ^t out.hm)" "$(grep -c ^t out.hm) == 100"
+
+# --- foreign meshes ---
+foreign() { # a mesh in .2dm, moved by X in x
+    awk -v move="$2" 'BEGIN { print "MESH2D" } /^v/ { printf "ND %d %.2f %.2f %.2f\n", ++n, $2 + move, $3, $4 }
+        /^t/ { printf "E3T %d %d %d %d 1\n", ++e, $2 + 1, $3 + 1, $4 + 1 }' "$1"
+}
+channel slanted 13.1117 0 48.7771 33.3333 20 7 4 >slanted.hm
+channel onward 48.7771 33.3333 84.4425 66.6666 20 7 4 >onward.hm
+foreign onward.hm 0.003 >onward.2dm
+stitch slanted.hm onward.2dm >out.hm 2>said
+ok "a foreign mesh is matched within a tolerance" sound out.hm
+ok "which is said" grep -Eq '[456] of them matched within 0.01 m, the furthest 0.0' said
+must_fail "not with --tolerance 0" 2 'hang|overlap|apart|touch' stitch -T 0 slanted.hm onward.2dm
+must_fail "--strict makes it exit 1" 1 'matched' stitch --strict slanted.hm onward.2dm
+ok "a 2dm alone is checked and written" sh -c 'stitch onward.2dm >alone.hm 2>/dev/null && [ $(grep -c ^t alone.hm) -gt 20 ]'
+
+# --- renumbering ---
+awk 'BEGIN { srand(3) } /^v/ { print rand(), $0 }' main.hm | sort -n | awk '{ $1 = ""; print substr($0, 2) }' >shuffled
+awk 'NR == FNR { new[$2, $3] = n++; line[n - 1] = $0; next } /^v/ { if (!done) for (i = 0; i < n; i++) print line[i]
+        done = 1; number[k++ + 0] = new[$2, $3]; next }
+    /^t/ { print "t", number[$2], number[$3], number[$4], $5; next } { print }' shuffled main.hm >mixed.hm
+stitch -r mixed.hm >out.hm 2>said
+elements mixed.hm >a && elements out.hm >b
+same "renumbering keeps the elements" a b
+nodes mixed.hm >a && nodes out.hm >b
+same "and the nodes" a b
+ok "bandwidth before and after is said: $(cat said)" awk '/bandwidth/ { exit !($3 + 0 <= 24 && $5 > 100) }' said
+
+# --- what is checked, and bad input ---
+sed 's/^t 0 1 31 0/t 1 0 31 0/' main.hm >clockwise.hm
+must_fail "a clockwise element is refused, with its place" 2 'area.*at|twice.*at' stitch clockwise.hm
+awk '{ print } /^#data/ { print "v 1000 1000 0 0 0" } ' main.hm | awk '/^[tq]/ { for (i = 2; i < NF; i++) $i++ } { print }' >isolated.hm
+ok "a node without element is left out" sh -c 'stitch isolated.hm 2>said | grep -c ^v >n && [ $(cat n) = 341 ] && grep -q "1 nodes without an element" said'
+sed '0,/^v 0 -20 [^ ]* /s//v 0 -20 nan /' main.hm >nan.hm
+must_fail "a missing height is refused" 2 'height.* at 0 -20' stitch nan.hm
+channel over 10 5 200 5 20 9 4 triangles irregular >over.hm
+must_fail "an irregular mesh that overlaps is refused" 2 'overlap.* at ' stitch main.hm over.hm
+must_fail "a negative buffer" 2 'buffer' stitch -w -1 main.hm
+must_fail "a negative tolerance" 2 'tolerance' stitch -T -1 main.hm
+must_fail "no mesh" 2 'mesh' stitch flat.xyz
+sed '$d' main.hm >cut.hm
+must_fail "a mesh without its end" 2 'cut.hm.*end' stitch t.hm cut.hm
+printf '#hm 1 mesh text\n#data\n#end\n' >empty.hm
+must_fail "a mesh of nothing" 2 'no elements' stitch empty.hm
+must_fail "a full disk" 2 'space|full' sh -c 'stitch main.hm t.hm >/dev/full'
+done_testing

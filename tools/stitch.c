@@ -1,0 +1,218 @@
+/* stitch: meshes → one conforming mesh. Regular meshes that overlap are cut by priority and the gap
+ * is filled; the others are joined to them by their common nodes. */
+#include "hm_cli.h"
+#include "hm_meshcheck.h"
+#include "hm_owners.h"
+#include "hm_rcm.h"
+#include "hm_stitch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Coordinates of foreign meshes are often rounded to centimetres. */
+static const double foreign_tolerance = 0.01;
+
+static struct {
+    double buffer;
+    bool has_buffer;
+    double tolerance;
+    bool has_tolerance;
+    bool components;
+    bool renumber;
+    const char *name;
+} cmd;
+
+static const struct hm_option options[] = {
+    {'w', "buffer", "M", HM_OPT_NUMBER, &cmd.buffer,
+     "cut elements of the lower mesh nearer than this to the higher (default: 0.4 edges)", NULL,
+     false, &cmd.has_buffer},
+    {'T', "tolerance", "M", HM_OPT_NUMBER, &cmd.tolerance,
+     "join nodes that are this near (default 0; 0.01 for meshes without role)", NULL, false,
+     &cmd.has_tolerance},
+    {'c', "components", NULL, HM_OPT_FLAG, &cmd.components, "the result may be in several pieces",
+     NULL, false, NULL},
+    {'r', "renumber", NULL, HM_OPT_FLAG, &cmd.renumber,
+     "renumber for a small bandwidth (reverse Cuthill-McKee)", NULL, false, NULL},
+    {'N', "name", "NAME", HM_OPT_TEXT, &cmd.name, "of the result (default: that of the first mesh)",
+     NULL, false, NULL},
+    {0}};
+
+static const struct hm_program program = {
+    .name = "stitch",
+    .purpose = "meshes, in order of priority → one conforming mesh",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_MESH | HM_POINTS | HM_GRID,
+};
+
+static const char *role_of(const struct hm_mesh *m)
+{
+    const char *role = hm_header_get(&m->header, "role");
+    return role ? role : "";
+}
+
+static bool is_regular(const struct hm_mesh *m)
+{
+    return !strcmp(role_of(m), "regular");
+}
+
+static const char *name_of(const struct hm_mesh *m)
+{
+    const char *name = hm_header_get(&m->header, "name");
+    return name && *name ? name : "a mesh without name";
+}
+
+/* The terrain for nodes in gaps; NULL when there is none, or no two meshes could have a gap. */
+static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inputs *in)
+{
+    size_t regular = 0;
+    for (size_t i = 0; i < in->nmeshes; i++)
+        regular += is_regular(&in->mesh[i]);
+    if (regular < 2 || in->npoints + in->ngrids == 0)
+        return NULL;
+    struct hm_terrain *terrain;
+    struct hm_diag d = {0};
+    hm_cli_check(cli, hm_terrain_new(&terrain, &d), &d);
+    for (size_t i = 0; i < in->npoints; i++)
+        hm_cli_check(
+            cli, hm_terrain_add_points(terrain, &in->points[i], 0, hm_cli_threads(cli), &d), &d);
+    for (size_t i = 0; i < in->ngrids; i++)
+        hm_cli_check(cli, hm_terrain_add_grid(terrain, &in->grid[i], &d), &d);
+    return terrain;
+}
+
+static void tell_stitched(struct hm_cli *cli, const char *name, const struct hm_stitched *s)
+{
+    int64_t cut = s->overlapping + s->near + s->loose;
+    if (cut == 0 && s->joined.shared > 0)
+        hm_cli_say(cli, "%s: joined by %lld common nodes", name, (long long)s->joined.shared);
+    else if (cut == 0)
+        hm_cli_say(cli, "%s: does not meet the meshes before it", name);
+    else if (s->kept == 0)
+        hm_cli_say(cli, "%s: nothing of it remains; %lld triangles where it went beyond", name,
+                   (long long)s->filled);
+    else
+        hm_cli_say(cli,
+                   "%s: %lld elements cut away (%lld overlap, %lld too near, %lld loose), %lld "
+                   "kept; %lld triangles in the gap, with %lld of its nodes",
+                   name, (long long)cut, (long long)s->overlapping, (long long)s->near,
+                   (long long)s->loose, (long long)s->kept, (long long)s->filled,
+                   (long long)s->reused);
+    if (s->widened > 0)
+        hm_cli_say(cli,
+                   "%s: %lld mouths are narrower than two edges of the meshes before it, and "
+                   "were widened",
+                   name, (long long)s->widened);
+}
+
+static void add_regular(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m,
+                        const struct hm_terrain *terrain)
+{
+    struct hm_diag d = {0};
+    struct hm_stitched s;
+    bool first = j->mesh.nelems == 0;
+    enum hm_err err = hm_stitch_regular(j, m, cmd.has_buffer ? cmd.buffer : -1, terrain, &s, &d);
+    hm_cli_check(cli, err, &d);
+    hm_cli_mended(cli, s.joined.unused, "%s: %lld nodes without an element were left out",
+                  name_of(m), (long long)s.joined.unused);
+    if (!first)
+        tell_stitched(cli, name_of(m), &s);
+}
+
+static void add_other(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m)
+{
+    struct hm_diag d = {0};
+    struct hm_joined joined = {0};
+    bool first = j->mesh.nelems == 0, foreign = !*role_of(m);
+    double tolerance = cmd.has_tolerance ? cmd.tolerance : foreign ? foreign_tolerance : 0;
+    hm_cli_check(cli, hm_join_mesh(j, m, NULL, tolerance, NULL, &joined, &d), &d);
+    hm_cli_mended(cli, joined.unused, "%s: %lld nodes without an element were left out", name_of(m),
+                  (long long)joined.unused);
+    if (!first)
+        hm_cli_say(cli, "%s: joined by %lld common nodes", name_of(m), (long long)joined.shared);
+    hm_cli_mended(cli, joined.matched, "%s: %lld of them matched within %g m, the furthest %.3g m",
+                  name_of(m), (long long)joined.matched, tolerance, joined.furthest);
+}
+
+/* Regular meshes first, whatever their place: the others were made around them. */
+static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_join *j)
+{
+    struct hm_terrain *terrain = build_terrain(cli, in);
+    for (int regular = 1; regular >= 0; regular--)
+        for (size_t i = 0; i < in->nmeshes; i++) {
+            const struct hm_mesh *m = &in->mesh[i];
+            if (is_regular(m) != regular)
+                continue;
+            if (regular)
+                add_regular(cli, j, m, terrain);
+            else
+                add_other(cli, j, m);
+        }
+    hm_terrain_free(terrain);
+}
+
+/* Nothing that breaks a rule is written. */
+static void check(struct hm_cli *cli, const struct hm_mesh *m, const struct hm_inputs *in)
+{
+    struct hm_diag d = {0};
+    struct hm_meshcheck c;
+    if (m->nelems == 0)
+        hm_cli_die(cli, "the mesh has no elements");
+    hm_cli_check(cli, hm_meshcheck_run(m, &c, &d), &d);
+    if (c.count[HM_FAULT_OVERLAP] > 0 && in->nmeshes > 1)
+        hm_cli_say(cli, "only meshes with the role regular make room for each other");
+    if (c.count[HM_FAULT_COMPONENTS] > 0 && !cmd.components)
+        hm_cli_say(cli, "the meshes do not all meet; --components allows several pieces");
+    hm_cli_check(cli, hm_meshcheck_verdict(&c, cmd.components, &d), &d);
+}
+
+static void renumber(struct hm_cli *cli, struct hm_mesh *m)
+{
+    struct hm_diag d = {0};
+    int64_t before = hm_rcm_bandwidth(m);
+    hm_cli_check(cli, hm_rcm_renumber(m, &d), &d);
+    hm_cli_say(cli, "bandwidth %lld, was %lld", (long long)hm_rcm_bandwidth(m), (long long)before);
+}
+
+static void write_mesh(struct hm_cli *cli, struct hm_mesh *m, const struct hm_inputs *in,
+                       const char *owners)
+{
+    struct hm_diag d = {0};
+    bool regular = true;
+    for (size_t i = 0; i < in->nmeshes; i++)
+        regular = regular && is_regular(&in->mesh[i]);
+    const char *name = cmd.name ? cmd.name : hm_header_get(&in->mesh[0].header, "name");
+    hm_cli_check(cli, hm_header_init(&m->header, HM_MESH, &d), &d);
+    hm_cli_check(cli, hm_header_set(&m->header, "name", name, &d), &d);
+    hm_cli_check(cli, hm_header_set(&m->header, "role", regular ? "regular" : "hybrid", &d), &d);
+    hm_cli_check(cli, hm_header_set(&m->header, "owners", *owners ? owners : NULL, &d), &d);
+    hm_cli_make_header(cli, &m->header);
+    hm_cli_check(cli, hm_mesh_write(m, hm_cli_writer(cli), &d), &d);
+}
+
+int main(int argc, char **argv)
+{
+    struct hm_cli *cli = hm_cli_start(&program, argc, argv);
+    struct hm_inputs in = {0};
+    struct hm_join join = {0};
+    char *owners;
+    struct hm_diag d = {0};
+    if (cmd.has_buffer && cmd.buffer < 0)
+        hm_cli_die(cli, "--buffer must not be negative");
+    if (cmd.has_tolerance && cmd.tolerance < 0)
+        hm_cli_die(cli, "--tolerance must not be negative");
+    hm_cli_read_all(cli, &in);
+    if (in.nmeshes == 0)
+        hm_cli_die(cli, "no mesh among the operands");
+    hm_cli_check(cli, hm_owners_join(in.mesh, in.nmeshes, &owners, &d), &d);
+    join_all(cli, &in, &join);
+    check(cli, &join.mesh, &in);
+    hm_cli_check(cli, hm_join_flag_boundary(&join.mesh, &d), &d);
+    if (cmd.renumber)
+        renumber(cli, &join.mesh);
+    write_mesh(cli, &join.mesh, &in, owners);
+    hm_join_free(&join);
+    free(owners);
+    hm_inputs_free(&in);
+    return hm_cli_finish(cli);
+}

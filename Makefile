@@ -111,9 +111,11 @@ $(B)/fuzz/obj/%.o: libcommon/%.c
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "  CLANG   $<")
 	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link -c -o $@ $<
-$(B)/fuzz/%: tests/fuzz/%.c $(LIB_OBJ:$(B)/obj/%=$(B)/fuzz/obj/%)
+$(B)/fuzz/libhm.a: $(LIB_OBJ:$(B)/obj/%=$(B)/fuzz/obj/%)
+	$(Q)rm -f $@ && $(AR) rcs $@ $^
+$(B)/fuzz/%: tests/fuzz/%.c $(B)/fuzz/libhm.a
 	$(if $(Q),@echo "  CLANG   $<")
-	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer -o $@ $^ -lm
+	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer -o $@ $< $(B)/fuzz/libhm.a -lm
 fuzz:
 	$(Q)tests/deps fuzz quiet
 	$(Q)$(MAKE) --no-print-directory $(FUZZ)

@@ -151,6 +151,8 @@ static enum hm_err read_string(struct hm_reader *r, const char *s, const char *e
 static enum hm_err read_card(struct hm_reader *r, struct hm_header *h, const char *s,
                              const char *end, struct hm_diag *d)
 {
+    if (!hm_row_is_text(s, end))
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "control characters");
     if (hm_row_begins(s, end, "ND"))
         return read_node(r, s + 2, end, d);
     if (hm_row_begins(s, end, "E3T"))

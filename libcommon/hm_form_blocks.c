@@ -3,6 +3,7 @@
 
 #include "hm_attr.h"
 #include "hm_block.h"
+#include "hm_row.h"
 
 #include <stdlib.h>
 
@@ -169,8 +170,8 @@ static enum hm_err read_attrs(struct hm_reader *r, struct hm_diag *d)
         size_t got;
         if ((err = take_records(r, 1, b->left, &bytes, &got, d)))
             return err;
-        if (memchr(bytes, '\0', got) || memchr(bytes, '\n', got))
-            return wrong(r, (int64_t)got, "attributes that are no line of text", d);
+        if (!hm_row_is_text(bytes, bytes + got))
+            return wrong(r, (int64_t)got, "control characters among attributes", d);
         if (!hm_grow(&r->attrs, &r->attrs_cap, size + got + 1, 1))
             return hm_fail_memory(d);
         memcpy(r->attrs + size, bytes, got);

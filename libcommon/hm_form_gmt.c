@@ -168,6 +168,8 @@ static enum hm_err next_line(struct hm_reader *r, struct hm_header *h, const cha
             return HM_END;
         }
         *s = hm_row_skip(*s, *end);
+        if (!hm_row_is_text(*s, *end))
+            return hm_input_fail(&r->in, HM_EFORMAT, d, "control characters");
         if (*s < *end && **s != '#')
             return HM_OK;
         if (*s < *end && (err = read_comment(r, h, *s, *end, d)))

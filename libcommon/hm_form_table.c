@@ -65,7 +65,7 @@ static char *clean_name(const char *s, const char *end)
         s++;
         end--;
     }
-    if (s == end || (!isalpha((unsigned char)*s) && *s != '_'))
+    if (s == end || (!isalpha((unsigned char)*s) && *s != '_') || !hm_row_is_text(s, end))
         return NULL;
     char *name = strndup(s, (size_t)(end - s));
     for (char *c = name; c && *c; c++)

@@ -181,6 +181,8 @@ static enum hm_err read_mark(struct hm_reader *r, struct hm_diag *d)
     while (end > s && hm_row_is_blank(end[-1]))
         end--;
     struct hm_diag why = {0};
+    if (!hm_row_is_text(s, end))
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "control characters among attributes");
     err = hm_form_set_attrs(r, s, (size_t)(end - s), d);
     if (!err && (err = hm_attr_check(r->attrs, &why)))
         hm_input_fail(&r->in, err, d, "%s", why.text);

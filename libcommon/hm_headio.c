@@ -1,6 +1,7 @@
 #include "hm_headio.h"
 
 #include "hm_num.h"
+#include "hm_row.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -159,6 +160,8 @@ static enum hm_err read_key(struct hm_input *in, struct hm_header *h, struct spa
     if (rest.s == rest.end || *rest.s != '#')
         return hm_input_fail(in, HM_EFORMAT, d,
                              "a line without '#' in a header (no #data before it)");
+    if (!hm_row_is_text(rest.s, rest.end))
+        return hm_input_fail(in, HM_EFORMAT, d, "control characters in a header");
     rest.s++;
     struct span key = {rest.s, rest.s};
     if (rest.s < rest.end && !is_blank(*rest.s))
@@ -214,7 +217,8 @@ static enum hm_err read_all(struct hm_input *in, struct hm_header *h, enum hm_en
             return hm_input_fail(in, HM_ETRUNC, d, "cut off inside a header");
         if (err)
             return err;
-        if (equals(line, "#data"))
+        if (hm_row_begins(line.s, line.end, "#data") &&
+            hm_row_skip(line.s + strlen("#data"), line.end) == line.end)
             break;
         err = read_key(in, h, line, d);
     }

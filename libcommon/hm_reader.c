@@ -93,6 +93,12 @@ static bool begins(const char *s, const char *end, const char *mark)
     return (size_t)(end - s) >= n && !memcmp(s, mark, n);
 }
 
+/* Does an object of the project begin here? */
+static bool is_own(const char *s, const char *end)
+{
+    return begins(s, end, "#hm") && (end - s == 3 || memchr(" \t\r\n", s[3], 4));
+}
+
 static const char *next_line(const char *s, const char *end)
 {
     const char *lf = memchr(s, '\n', (size_t)(end - s));
@@ -102,7 +108,7 @@ static const char *next_line(const char *s, const char *end)
 /* Where the first line begins that is of the project's own, or a line mark when that is wanted. */
 static const char *find_line(const char *s, const char *end, bool mark)
 {
-    while (s < end && !begins(s, end, "#hm ") && !(mark && *s == '>'))
+    while (s < end && !is_own(s, end) && !(mark && *s == '>'))
         s = next_line(s, end);
     return s;
 }
@@ -135,7 +141,7 @@ static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
         r->in.pos += 3; /* the byte order mark that some editors put first */
     size_t n = hm_input_has(&r->in);
     const char *s = hm_input_at(&r->in), *end = s + (n < AHEAD ? n : AHEAD), *first = s;
-    if (begins(s, end, "#hm ")) {
+    if (is_own(s, end)) {
         r->form = &hm_form_text;
         return HM_OK;
     }

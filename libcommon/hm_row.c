@@ -57,6 +57,14 @@ size_t hm_row_count(const char *s, const char *end, bool comma)
     return n;
 }
 
+bool hm_row_is_text(const char *s, const char *end)
+{
+    for (; s < end; s++)
+        if (((unsigned char)*s < ' ' && *s != '\t') || *s == 127)
+            return false;
+    return true;
+}
+
 const char *hm_row_word(char word[HM_ROW_WORD], const char *s, const char *end)
 {
     size_t n = 0;

@@ -49,6 +49,9 @@ enum hm_err hm_row_fail(const struct hm_input *in, const char *s, const char *en
 /* Does the line begin with this word, a blank or nothing behind it? */
 bool hm_row_begins(const char *s, const char *end, const char *word);
 
+/* Nothing but printable characters (of any language, in UTF-8), blanks and tabs? */
+bool hm_row_is_text(const char *s, const char *end);
+
 /* A word of the input as it can stand in a message: printable, cut to fit. */
 enum { HM_ROW_WORD = 48 };
 const char *hm_row_word(char word[HM_ROW_WORD], const char *s, const char *end);

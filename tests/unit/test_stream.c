@@ -107,6 +107,8 @@ static void test_bad_text(void)
     refused_text("bad count", HEAD "#end many\n", HM_EFORMAT, 3, "number");
     refused_text("data in header", "#hm 1 points text\n1 2 3\n", HM_EFORMAT, 2, "header");
     refused_text("fields", "#hm 1 points text\n#fields y x z\n", HM_EFORMAT, 2, "x y z");
+    refused("control character", HEAD "#end\n#hm 1 points text\n#a \0b\n#data\n#end\n", 64,
+            HM_EFORMAT, 5, "control");
     refused_text("size 0", "#hm 1 grid text\n#size 0 2\n#origin 0 0\n#step 1 1\n#data\n",
                  HM_EFORMAT, 5, "#size");
     refused_text("no size", "#hm 1 grid text\n#data\n", HM_EFORMAT, 2, "#size");

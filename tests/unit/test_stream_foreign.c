@@ -107,6 +107,9 @@ static void test_2dm(void)
           "#hm 1 mesh text\n#data\nv 0 0 1 0 0\nv 1 0 1 0 0\nv 1 1 1 0 0\nt 0 1 2 0\n#end 4\n"
           "#hm 1 mesh text\n#data\n#end 0\n");
 #define TRI "MESH2D\nND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\n"
+    reads("another material for region 0", TRI "E3T 1 1 2 3 8\nMAT 8 \"region 0\"\n",
+          "#hm 1 mesh text\n#data\nv 0 0 1 0 0\nv 1 0 1 0 0\nv 1 1 1 0 0\nt 0 1 2 0\n#end 4\n");
+    refused_text("a mark without a kind behind", TRI "#hm\n", HM_EFORMAT, 5, "expected \"#hm 1");
     refused_text("no such node", TRI "E3T 1 1 2 4 1\n", HM_EFORMAT, 0, "element 1");
     refused_text("an id twice", TRI "ND 3 5 5 5\nE3T 1 1 2 3 1\n", HM_EFORMAT, 0, "id 3");
     refused_text("a word", "MESH2D\nND 1 0 zero 1\n", HM_EFORMAT, 2, "zero");

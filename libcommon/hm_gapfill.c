@@ -1,104 +1,164 @@
 #include "hm_gapfill.h"
 
-#include "hm_thread.h"
+#include "hm_tri.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { BAND = 64 };
-
-/* A filled node is put down here first, since only measured nodes may serve for others. */
-struct filled {
-    size_t node;
-    double z;
-};
-
+/* Only nodes with data beside nodes without are triangulated: a Delaunay triangle over an empty
+ * node has no others for corners (the circle through its corners reaches a neighbour of each of
+ * them). Coordinates are whole numbers, so all geometry here is exact.
+ */
 struct fill {
     double *z;
     size_t nx, ny;
-    double gap;
-    struct band {
-        struct filled *item;
-        size_t n, cap;
-        bool failed;
-    } * band;
+    double gap2;
+    double *corner; /* i, j of the nodes triangulated */
+    size_t n, cap;
 };
 
-/* Steps from node (i, j) to the first one with data in direction (di, dj), at most `most`; 0 when
- * there is none. */
-static int64_t reach(const struct fill *f, int64_t i, int64_t j, int di, int dj, int64_t most,
-                     double *z)
+struct node {
+    int64_t i, j;
+};
+
+static double *at(const struct fill *f, struct node p)
 {
-    for (int64_t k = 1; k <= most; k++) {
-        i += di;
-        j += dj;
-        if (i < 0 || j < 0 || i >= (int64_t)f->nx || j >= (int64_t)f->ny)
-            return 0;
-        *z = f->z[(size_t)j * f->nx + (size_t)i];
-        if (!isnan(*z))
-            return k;
-    }
-    return 0;
+    return &f->z[(size_t)p.j * f->nx + (size_t)p.i];
 }
 
-static double height_between(const struct fill *f, int64_t i, int64_t j)
+static bool is_beside_empty(const struct fill *f, size_t i, size_t j)
 {
-    static const int direction[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    double sum = 0, weights = 0;
-    for (int k = 0; k < 4; k++) {
-        int di = direction[k][0], dj = direction[k][1];
-        double step = di && dj ? sqrt(2) : 1;
-        int64_t most = (int64_t)(f->gap / step);
-        double za, zb;
-        int64_t a = reach(f, i, j, di, dj, most - 1, &za);
-        int64_t b = a ? reach(f, i, j, -di, -dj, most - a, &zb) : 0;
-        if (!b)
-            continue;
-        double weight = 1 / (step * step * (double)(a * b));
-        sum += weight * ((double)b * za + (double)a * zb) / (double)(a + b);
-        weights += weight;
-    }
-    return weights > 0 ? sum / weights : NAN;
+    for (size_t b = j > 0 ? j - 1 : 0; b <= j + 1 && b < f->ny; b++)
+        for (size_t a = i > 0 ? i - 1 : 0; a <= i + 1 && a < f->nx; a++)
+            if (isnan(f->z[b * f->nx + a]))
+                return true;
+    return false;
 }
 
-static void fill_band(void *arg, size_t chunk)
+static enum hm_err collect(struct fill *f, struct hm_diag *d)
 {
-    const struct fill *f = arg;
-    struct band *band = &f->band[chunk];
-    size_t end = (chunk + 1) * BAND < f->ny ? (chunk + 1) * BAND : f->ny;
-    for (size_t j = chunk * BAND; j < end; j++)
+    for (size_t j = 0; j < f->ny; j++)
         for (size_t i = 0; i < f->nx; i++) {
-            size_t node = j * f->nx + i;
-            if (!isnan(f->z[node]))
+            if (isnan(f->z[j * f->nx + i]) || !is_beside_empty(f, i, j))
                 continue;
-            double z = height_between(f, (int64_t)i, (int64_t)j);
-            if (isnan(z))
-                continue;
-            if (!hm_grow(&band->item, &band->cap, band->n + 1, sizeof *band->item)) {
-                band->failed = true;
-                return;
-            }
-            band->item[band->n++] = (struct filled){node, z};
+            if (!hm_grow(&f->corner, &f->cap, 2 * (f->n + 1), sizeof *f->corner))
+                return hm_fail_memory(d);
+            f->corner[2 * f->n] = (double)i;
+            f->corner[2 * f->n++ + 1] = (double)j;
         }
+    return HM_OK;
+}
+
+static int64_t cross(struct node a, struct node b, struct node c)
+{
+    return (b.i - a.i) * (c.j - a.j) - (b.j - a.j) * (c.i - a.i);
+}
+
+static double length2(struct node a, struct node b)
+{
+    double di = (double)(b.i - a.i), dj = (double)(b.j - a.j);
+    return di * di + dj * dj;
+}
+
+/* R = abc / 4A */
+static bool is_gap(const struct fill *f, const struct node c[3])
+{
+    double a = length2(c[0], c[1]), b = length2(c[1], c[2]), e = length2(c[2], c[0]);
+    double area2 = (double)cross(c[0], c[1], c[2]);
+    return a > f->gap2 || b > f->gap2 || e > f->gap2 || a * b * e > 4 * area2 * area2 * f->gap2;
+}
+
+static bool before(struct node a, struct node b)
+{
+    return a.j < b.j || (a.j == b.j && a.i < b.i);
+}
+
+/* Height on the piece from a to b, the same from either side. */
+static double on_edge(const struct fill *f, struct node a, struct node b, struct node p)
+{
+    if (before(b, a)) {
+        struct node swap = a;
+        a = b;
+        b = swap;
+    }
+    double t = a.j == b.j ? (double)(p.i - a.i) / (double)(b.i - a.i)
+                          : (double)(p.j - a.j) / (double)(b.j - a.j);
+    return *at(f, a) + t * (*at(f, b) - *at(f, a));
+}
+
+/* Height at p in the triangle (counter-clockwise), NaN outside; c[0] is the first of its corners,
+ * so that the numbers of the triangulation do not matter. */
+static double height_in(const struct fill *f, const struct node c[3], struct node p)
+{
+    int64_t w[3];
+    for (int k = 0; k < 3; k++) {
+        w[k] = cross(c[(k + 1) % 3], c[(k + 2) % 3], p);
+        if (w[k] < 0)
+            return NAN;
+    }
+    for (int k = 0; k < 3; k++)
+        if (w[k] == 0)
+            return on_edge(f, c[(k + 1) % 3], c[(k + 2) % 3], p);
+    double z0 = *at(f, c[0]);
+    return z0 + ((double)w[1] * (*at(f, c[1]) - z0) + (double)w[2] * (*at(f, c[2]) - z0)) /
+                    (double)(w[0] + w[1] + w[2]);
+}
+
+static int64_t least(int64_t a, int64_t b, int64_t c)
+{
+    int64_t m = a < b ? a : b;
+    return m < c ? m : c;
+}
+
+static void fill_triangle(const struct fill *f, const struct node c[3])
+{
+    struct node low = {least(c[0].i, c[1].i, c[2].i), least(c[0].j, c[1].j, c[2].j)};
+    struct node high = {-least(-c[0].i, -c[1].i, -c[2].i), -least(-c[0].j, -c[1].j, -c[2].j)};
+    if ((high.i - low.i == 1 && high.j - low.j == 1) || is_gap(f, c))
+        return;
+    for (struct node p = {.j = low.j}; p.j <= high.j; p.j++)
+        for (p.i = low.i; p.i <= high.i; p.i++)
+            if (isnan(*at(f, p)))
+                *at(f, p) = height_in(f, c, p);
+}
+
+static struct node node_of(const struct hm_tri *t, int32_t v)
+{
+    const double *xy = hm_tri_xy(t, v);
+    return (struct node){(int64_t)xy[0], (int64_t)xy[1]};
+}
+
+static void fill_triangles(const struct fill *f, const struct hm_tri *t)
+{
+    for (int32_t k = 0; k < hm_tri_triangles(t); k++) {
+        if (!hm_tri_is_solid(t, k))
+            continue;
+        struct node c[3] = {node_of(t, hm_tri_org(t, 3 * k)), node_of(t, hm_tri_dest(t, 3 * k)),
+                            node_of(t, hm_tri_apex(t, 3 * k))};
+        while (before(c[1], c[0]) || before(c[2], c[0])) {
+            struct node first = c[0];
+            c[0] = c[1];
+            c[1] = c[2];
+            c[2] = first;
+        }
+        fill_triangle(f, c);
+    }
 }
 
 enum hm_err hm_gapfill(double *z, size_t nx, size_t ny, double gap, int threads, struct hm_diag *d)
 {
-    size_t bands = (ny + BAND - 1) / BAND;
-    struct fill f = {.z = z, .nx = nx, .ny = ny};
-    f.gap = fmin(gap, 2 * (double)(nx > ny ? nx : ny)); /* further there is nothing */
-    f.band = hm_alloc0(bands, sizeof *f.band);
-    if (!f.band)
-        return hm_fail_memory(d);
-    hm_thread_for(threads, bands, fill_band, &f);
-    bool failed = false;
-    for (size_t b = 0; b < bands; b++)
-        failed |= f.band[b].failed;
-    for (size_t b = 0; b < bands; b++) {
-        for (size_t k = 0; k < f.band[b].n && !failed; k++)
-            z[f.band[b].item[k].node] = f.band[b].item[k].z;
-        free(f.band[b].item);
+    struct fill f = {.z = z, .nx = nx, .ny = ny, .gap2 = gap * gap};
+    enum hm_err err = collect(&f, d);
+    struct hm_tri *t = NULL;
+    struct hm_diag flat = {0}; /* all on one line: there is no triangle to fill, and no failure */
+    if (!err && f.n >= 3) {
+        err = hm_tri_build(&t, f.corner, f.n, 2, threads, &flat);
+        if (!err)
+            fill_triangles(&f, t);
+        else
+            err = err == HM_EGEOM ? HM_OK : hm_fail(d, err, "%s", flat.text);
     }
-    free(f.band);
-    return failed ? hm_fail_memory(d) : HM_OK;
+    hm_tri_free(t);
+    free(f.corner);
+    return err;
 }

@@ -1,13 +1,13 @@
-/* hm_gapfill: heights for the nodes of a grid that got no measurement. Layer 1. */
+/* hm_gapfill: heights for the nodes of a grid that got no measurement. Layer 3, on hm_tri. */
 #ifndef HM_GAPFILL_H
 #define HM_GAPFILL_H
 
 #include "hm_base.h"
 
-/* Fill NaN nodes of z (ny rows of nx) that lie between nodes with data: linearly along the row, the
- * column and both diagonals, as far as these have data on either side that are at most `gap` cells
- * apart; the nearer pair weighs more. Exact on planes. Nodes beside the data stay NaN, as do those
- * in wider gaps. */
+/* Fill NaN nodes of z (ny rows of nx) linearly in the Delaunay triangles between nodes with data.
+ * Nodes stay NaN in triangles with an edge over `gap` cells, or so flat that the circle through
+ * their corners has a larger radius, and beyond all triangles. Exact on planes. What a node gets
+ * depends, to the last bit, on the nodes within 2 * gap of it alone; so windows of a grid agree. */
 enum hm_err hm_gapfill(double *z, size_t nx, size_t ny, double gap, int threads, struct hm_diag *d);
 
 #endif

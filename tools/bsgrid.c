@@ -108,7 +108,7 @@ static void parse_region(struct hm_cli *cli, struct survey *s)
     hm_cli_check(cli, hm_anchor_within(&s->out, cmd.spacing, w, &d), &d);
     s->has_window = true;
     /* what lies further off changes nothing in the window */
-    double halo = cmd.iterations + 2 + ceil(cmd.gap / cmd.spacing);
+    double halo = cmd.iterations + 2 + 2 * ceil(cmd.gap / cmd.spacing);
     if (halo > 1e6)
         hm_cli_die(cli, "-R: the gap limit is over a million spacings");
     s->nodes = s->out;
@@ -305,6 +305,14 @@ static void begin_grid(struct hm_cli *cli, const struct survey *s)
     hm_header_free(&h);
 }
 
+/* The surface's slope means something only where the data tell it in both directions. */
+static bool tells_slope(const struct hm_bsurf *b, int64_t i, int64_t j)
+{
+    return hm_bfringe_has_data(b, i, j) &&
+           (hm_bfringe_has_data(b, i - 1, j) || hm_bfringe_has_data(b, i + 1, j)) &&
+           (hm_bfringe_has_data(b, i, j - 1) || hm_bfringe_has_data(b, i, j + 1));
+}
+
 static void write_grid(struct hm_cli *cli, const struct survey *s, const struct hm_bsurf *b)
 {
     struct hm_diag d = {0};
@@ -319,8 +327,9 @@ static void write_grid(struct hm_cli *cli, const struct survey *s, const struct 
             bool known = hm_bfringe_has_data(b, i, j);
             *to++ = known ? z[i] : NAN;
             if (cmd.derivatives) {
-                *to++ = known ? zu[i] / cmd.spacing : NAN;
-                *to++ = known ? zv[i] / cmd.spacing : NAN;
+                bool tells = tells_slope(b, i, j);
+                *to++ = tells ? zu[i] / cmd.spacing : NAN;
+                *to++ = tells ? zv[i] / cmd.spacing : NAN;
             }
             empty += !known;
         }

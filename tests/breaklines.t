@@ -1,0 +1,106 @@
+#!/bin/sh
+# breaklines: limits, modes, what becomes of the lines, slope from elsewhere, bad input.
+. "${0%/*}/tap.sh"
+
+# A straight bank along a slanted line, 1:3, 6 m wide, on a grid of 1 m; slopes by slope.
+awk 'BEGIN { print "#hm 1 grid text"; print "#size 121 81"; print "#origin 500 900"; print "#step 1 1"
+    print "#fields x y z"; print "#crs UTM 32N WGS84"; print "#data"
+    for (j = 0; j < 81; j++) for (i = 0; i < 121; i++) { s = (j - 40) * 0.96 - (i - 60) * 0.28
+        print 500 + i, 900 + j, (s < -3 ? -1 : s > 3 ? 1 : s / 3) }
+    print "#end" }' >bank.hm
+slope bank.hm >slope.hm
+breaklines -s 9 slope.hm >lines.hm 2>err
+# count FILE: lines in it
+count() { grep -c '^>' "$1"; }
+
+true_that "a bank has two breaklines" "$(count lines.hm) == 2"
+ok "says what came and went" grep -Eq '2 lines found \([0-9]+ vertices\), 0 dropped .* 2 written' err
+ok "attributes" grep -q '^> limit=9 length=12[0-9.]*$' lines.hm
+ok "units, crs and history" sh -c "grep -q '^#units m m m$' lines.hm && grep -q '^#crs UTM 32N WGS84' lines.hm &&
+    grep -q '^#prog breaklines .* -s 9$' lines.hm"
+true_that "half the bank's slope: on toe and crest to a third of a cell" "$(awk '!/^[#>]/ && $1 > 503 && $1 < 617 {
+    s = ($2 - 940) * 0.96 - ($1 - 560) * 0.28; e = (s < 0 ? -s : s) - 3; if (e < 0) e = -e; if (e > m) m = e }
+    END { print m }' lines.hm) < 0.33"
+true_that "z is the surface's" "$(awk '!/^[#>]/ { z = $3 < 0 ? -$3 : $3; if (z < 0.8 || z > 1) bad++ }
+    END { print bad + 0 }' lines.hm) == 0"
+true_that "the steep side is on the left" "$(awk '/^>/ { n = 0; next } !/^#/ { if (n++) {
+    if (($1 - x) * (940 - y) - ($2 - y) * (560 - x) <= -60) bad++ } x = $1; y = $2 } END { print bad + 0 }' lines.hm) == 0"
+
+breaklines -s 9,10%,14 slope.hm >three.hm 2>/dev/null
+true_that "three limits at once" "$(count three.hm) == 6"
+true_that "each line says its limit" "$(grep -c 'limit=10%' three.hm) == 2 && $(grep -c 'limit=14' three.hm) == 2"
+breaklines -s 10% three.hm >/dev/null 2>&1
+slope -u percent bank.hm | breaklines -s 9 2>/dev/null | grep -v '^#' >a
+grep -v '^#' lines.hm >b
+true_that "slopes in percent: nearly the same lines" "$(paste a b | awk '!/>/ { d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2
+    if (d > m) m = d } END { print (NR > 100 ? m : 9) }') < 0.01"
+breaklines -s 9 -m node slope.hm >node.hm 2>/dev/null
+true_that "node mode: vertices are nodes" "$(awk '!/^[#>]/ && ($1 % 1 || $2 % 1)' node.hm | wc -l) == 0"
+breaklines -s 9 -x mean slope.hm >mean.hm 2>/dev/null
+true_that "mean: fewer vertices by one a line" "$(grep -vc '^[#>]' lines.hm) - $(grep -vc '^[#>]' mean.hm) == 2"
+
+# rough ground: many lines, closed ones, the short ones dropped
+awk 'BEGIN { print "#hm 1 grid text"; print "#size 200 200"; print "#origin 0 0"; print "#step 2 2"
+    print "#fields x y z slope"; print "#units m m m degree"; print "#data"
+    for (j = 0; j < 200; j++) for (i = 0; i < 200; i++)
+        print 2 * i, 2 * j, i, (i % 37 == 5 && j > 90 ? "nan" : 6 + 4 * sin(i / 3 + j / 11) * cos(j / 4) + (i * 7 + j * 13) % 5)
+    print "#end" }' >rough.hm
+breaklines -s 8 -l 0 rough.hm >all.hm 2>err
+breaklines -s 8 rough.hm >long.hm 2>/dev/null
+true_that "short lines are dropped" "$(count long.hm) < $(count all.hm)"
+true_that "the default is 10 spacings" "$(sed -n 's/^>.*length=\([0-9.]*\).*/\1/p' long.hm | sort -n | head -n 1) >= 20"
+true_that "closed lines" "$(grep -c 'closed=1' all.hm) > 10"
+breaklines -s 8 -l 50 rough.hm >l50.hm 2>/dev/null
+true_that "another minimum" "$(sed -n 's/^>.*length=\([0-9.]*\).*/\1/p' l50.hm | sort -n | head -n 1) >= 50"
+breaklines -s 8 -e 0.5 rough.hm >simple.hm 2>/dev/null
+true_that "simplified" "$(grep -vc '^[#>]' simple.hm) < 0.8 * $(grep -vc '^[#>]' long.hm) && $(count simple.hm) == $(count long.hm)"
+breaklines -s 8 -r 5 rough.hm >equal.hm 2>/dev/null
+true_that "resampled" "$(awk '/^>/ { n = 0; next } !/^#/ { if (n++) { d = sqrt(($1 - x) ^ 2 + ($2 - y) ^ 2)
+    if (d > 5.9) bad++ } x = $1; y = $2 } END { print bad + 0 }' equal.hm) == 0"
+breaklines -s 8 -w 0.5 rough.hm >smooth.hm 2>/dev/null
+sum='s/^>.*length=\([0-9.]*\).*/\1/p'
+true_that "smoothed lines are shorter" "$(sed -n "$sum" smooth.hm | awk '{ s += $1 } END { print s }') < \
+    $(sed -n "$sum" long.hm | awk '{ s += $1 } END { print s }')"
+ok "all at once" breaklines -s 8 -w 0.5 -e 0.3 -r 6 rough.hm
+for options in "" "-m node" "-x mean" "-e 1 -w 1"; do
+    breaklines -s 8 $options -j 1 rough.hm >a.hm 2>/dev/null
+    breaklines -s 8 $options -j 2 rough.hm >b.hm 2>/dev/null
+    same "one thread as two: $options" a.hm b.hm
+done
+slope -b bank.hm | breaklines -b -s 9 2>/dev/null >binary.hm
+breaklines -s 9 slope.hm 2>/dev/null | head -n 1 >/dev/null
+ok "binary lines are shorter" [ "$(wc -c <binary.hm)" -lt "$(wc -c <lines.hm)" ]
+
+# an exact hit everywhere: a plane at just the limit is steep, all of it, and has no border
+awk '/^#/ && !/^#end/ { print } !/^#/ { print $1, $2, $3, 8 } END { print "#end" }' rough.hm >level.hm
+breaklines -s 8 -l 0 level.hm >a.hm 2>/dev/null
+true_that "slope equal to the limit everywhere: no line" "$(grep -c '^>' a.hm) == 0"
+ok "but a whole stream" sh -c 'tail -n 1 a.hm | grep -q "^#end"'
+
+# slope from elsewhere
+awk '/^#fields/ { print "#fields x y slope"; next } /^#units/ { print "#units m m degree"; next } /^#/ { print; next }
+    { print $1, $2, $4 }' slope.hm >apart.hm
+breaklines -s 9 --slope apart.hm bank.hm >a.hm 2>/dev/null
+grep -v '^#' a.hm >a
+same "slope and heights apart" a b
+sed 's/^#origin.*/#origin 501 900/' apart.hm >shifted.hm
+must_fail "another lattice" 2 'nodes are not those' breaklines -s 9 --slope shifted.hm bank.hm
+must_fail "no such slope file" 2 'nowhere' breaklines --slope nowhere bank.hm
+
+# bad input
+: >empty
+must_fail "empty" 2 'empty' breaklines empty
+must_fail "no slope" 2 'no band slope' breaklines bank.hm
+head -n 400 slope.hm >cut.hm
+must_fail "truncated" 2 'cut.hm' breaklines cut.hm
+sed '$d' slope.hm >cut.hm
+must_fail "no end mark" 2 'cut.hm' breaklines cut.hm
+ok "then nothing looks whole" sh -c '! breaklines cut.hm 2>/dev/null | grep -q "^#end"'
+must_fail "points for a grid" 2 'no grid' sh -c 'echo 1 2 3 | breaklines'
+for limit in 0 90 -3 x 5,,6 5%% nan; do
+    must_fail "limit $limit" 2 'limit is' breaklines -s "$limit" slope.hm
+done
+if [ -e /dev/full ]; then
+    must_fail "a full disk" 2 'space|No space' sh -c 'breaklines -s 8 -l 0 rough.hm >/dev/full'
+fi
+done_testing

@@ -1,0 +1,108 @@
+#!/bin/sh
+# slope: methods, units and aspect on planes; borders and nodata; a stream that flows; bad input.
+. "${0%/*}/tap.sh"
+
+# grid NX NY HEIGHT-EXPRESSION [DX DY]: a grid with z from x and y
+grid() {
+    awk -v nx="$1" -v ny="$2" -v dx="${4:-1}" -v dy="${5:-1}" 'BEGIN {
+        print "#hm 1 grid text"; print "#size " nx " " ny; print "#origin 100 200"
+        print "#step " dx " " dy; print "#fields x y z"; print "#crs UTM 32N WGS84"; print "#data"
+        for (j = 0; j < ny; j++) for (i = 0; i < nx; i++) { x = 100 + i * dx; y = 200 + j * dy
+            z = '"$3"'; printf "%.17g %.17g ", x, y; if (z == "nan") print z; else printf "%.17g\n", z }
+        print "#end" }'
+}
+# off COLUMN WANT: largest difference of a column from a number; counts missing ones as 1e9
+off() {
+    awk -v f="$1" -v want="$2" '!/^#/ { e = $f == "nan" ? 1e9 : $f - want; if (e < 0) e = -e; if (e > m) m = e }
+        END { printf "%.3g", m }'
+}
+
+grid 12 9 '0.3 * x - 0.4 * y' 2 5 >plane.hm
+degrees=26.565051177077989
+for method in distance horn zt equal simple; do
+    true_that "$method: exact on a plane to the border" "$(slope -m $method plane.hm | off 4 $degrees) < 1e-9"
+done
+true_that "percent" "$(slope -u percent plane.hm | off 4 50) < 1e-9"
+true_that "radian" "$(slope -u radian plane.hm | off 4 0.46364760900080609) < 1e-12"
+true_that "aspect: falls to the north-west" "$(slope -a plane.hm | off 5 323.13010235415598) < 1e-9"
+grid 12 9 '0.3 * x - 0.4 * y' 2 -5 >south.hm
+true_that "aspect when the grid comes north first" "$(slope -a south.hm | off 5 323.13010235415598) < 1e-9"
+grid 9 9 '0.5 * y' >aligned.hm
+true_that "steepest: exact along the lattice" "$(slope -m steepest aligned.hm | off 4 $degrees) < 1e-9"
+slope -a plane.hm >a.hm
+ok "fields" grep -q '^#fields x y z slope aspect$' a.hm
+ok "units" grep -q '^#units m m m degree degree$' a.hm
+ok "crs and history" sh -c "grep -q '^#crs UTM 32N WGS84' a.hm && grep -q '^#prog slope .* -a$' a.hm"
+
+awk '!/^#/ && NR % 13 == 0 { $3 = "nan" } { print }' plane.hm >holes.hm
+slope holes.hm >a.hm
+true_that "beside nodata: still exact" "$(awk '$4 != "nan"' a.hm | off 4 $degrees) < 1e-9"
+true_that "nodata itself has no slope" "$(awk '!/^#/ && $3 == "nan" && $4 != "nan"' a.hm | wc -l) == 0"
+true_that "and only nodata" "$(awk '!/^#/ && $3 != "nan" && $4 == "nan"' a.hm | wc -l) <= 1"
+
+# the exact derivative of the surface, and a survey from points to slope
+awk 'BEGIN { s = 7; for (i = 0; i < 4000; i++) { s = (s * 16807) % 2147483647; x = s % 10000 / 100
+    s = (s * 16807) % 2147483647; y = s % 10000 / 100; printf "%s %s %.17g\n", x, y, 0.3 * x - 0.4 * y } }' >plane.xyz
+true_that "irregular points, TIN, dragging, slope: exact" \
+    "$(bsgrid -d 2 plane.xyz 2>/dev/null | slope | awk '$3 != "nan"' | off 4 $degrees) < 1e-9"
+true_that "bspline: the surface's own derivative" \
+    "$(bsgrid -d 2 --derivatives plane.xyz 2>/dev/null | slope -m bspline | awk '$6 != "nan"' | off 6 $degrees) < 1e-9"
+
+# forms of the stream, threads
+grid 300 300 'sin(x / 7) * cos(y / 5) + ((x * 7 + y * 3) % 11) / 20' >rough.hm
+slope -j 1 rough.hm >one.hm
+slope -j 2 rough.hm >two.hm
+same "one thread as two" one.hm two.hm
+slope -b rough.hm >binary.hm
+slope <rough.hm | cmp -s - one.hm
+report $? "standard input as a file"
+breaklines -s 5 one.hm >a.hm 2>/dev/null
+breaklines -s 5 binary.hm >b.hm 2>/dev/null
+same "text and binary" a.hm b.hm
+
+# a true filter: rows come out while the input is still open
+mkfifo pipe
+slope <pipe >flow.hm &
+exec 3>pipe
+head -n 60000 rough.hm >&3
+tries=0
+while [ ! -s flow.hm ] && [ $tries -lt 50 ]; do sleep 0.1; tries=$((tries + 1)); done
+ok "rows come out before the last is in" [ -s flow.hm ]
+tail -n +60001 rough.hm >&3
+exec 3>&-
+wait
+same "and all of them in the end" one.hm flow.hm
+
+# against gdaldem, where it is installed (single precision)
+if command -v gdaldem >/dev/null && need_data severn_caersws/caersws_10m.asc; then
+    for pair in horn:Horn zt:ZevenbergenThorne; do
+        gdaldem slope -q -of AAIGrid -co DECIMAL_PRECISION=9 -alg ${pair#*:} \
+            "$DATA/severn_caersws/caersws_10m.asc" peer.asc 2>/dev/null
+        slope -m ${pair%:*} "$DATA/severn_caersws/caersws_10m.asc" | awk '!/^#/ { print $4 }' >ours
+        awk '$1 + 0 == $1 && NF > 50 { for (i = 1; i <= NF; i++) print $i }' peer.asc >theirs
+        true_that "${pair%:*} as gdaldem on the Severn's interior" "$(paste ours theirs |
+            awk '$2 != -9999 { e = $1 - $2; if (e < 0) e = -e; if (e > m) m = e; n++ }
+                 END { print (n > 15000 ? m : 9) }') < 1e-4"
+    done
+fi
+
+# bad input
+: >empty
+must_fail "empty" 2 'empty' slope empty
+head -n 50 plane.hm >cut.hm
+must_fail "truncated" 2 'cut.hm' slope cut.hm
+sed '$d' plane.hm >cut.hm
+must_fail "no end mark" 2 'cut.hm' slope cut.hm
+ok "then nothing looks whole" sh -c '! slope cut.hm 2>/dev/null | grep -q "^#end"'
+sed '30s/^[^ ]*/word/' plane.hm >word.hm
+must_fail "a word" 2 'word.hm:30' slope word.hm
+must_fail "points for a grid" 2 'no grid' slope plane.xyz
+must_fail "slope twice" 2 'already' slope one.hm
+must_fail "bspline without derivatives" 2 'dzdx' slope -m bspline plane.hm
+must_fail "no such method" 2 'method' slope -m best plane.hm
+grid 1 1 1 >one.hm
+ok "one node: no slope, but no failure" sh -c 'slope one.hm | grep -q "^100 200 1 nan$"'
+if [ -e /dev/full ]; then
+    must_fail "a full disk" 2 'space|No space' sh -c 'slope rough.hm >/dev/full'
+fi
+done_testing

@@ -1,0 +1,290 @@
+/* Breaklines against an analytic bank, and the bookkeeping of lines: chaining, saddles, borders. */
+#include "hm_bspline.h"
+#include "hm_contour.h"
+#include "hm_lineedit.h"
+#include "hm_polyline.h"
+#include "hm_simplify.h"
+#include "hm_slope.h"
+#include "tap.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double degree = 3.14159265358979323846 / 180;
+
+/* --- lines of a grid --- */
+
+static enum hm_err keep(void *arg, const struct hm_line *found, struct hm_diag *d)
+{
+    struct hm_line line = *found;
+    line.attrs = (char[]){""};
+    hm_lineedit_tidy(&line);
+    return line.n > 1 ? hm_lines_append(arg, &line, d) : HM_OK;
+}
+
+static struct hm_lines trace(const struct hm_lattice *l, const double *slope, const double *z,
+                             double limit, enum hm_contour_mode mode, enum hm_contour_saddle saddle)
+{
+    struct hm_lines lines = {0};
+    struct hm_contour *c;
+    struct hm_contour_rule rule = {limit, mode, saddle, keep, &lines};
+    bool good = !hm_contour_new(&c, l, &rule, NULL);
+    for (int64_t j = 0; good && j < l->ny; j++)
+        good = !hm_contour_row(c, slope + j * l->nx, z + j * l->nx, NULL);
+    if (!good || hm_contour_end(c, NULL))
+        ok(false, "tracing");
+    hm_contour_free(c);
+    return lines;
+}
+
+/* --- the analytic bank: scheme.md's test of the paper's claim ---
+ *
+ * z = h / (1 + exp(-s / 3)) over the distance s across the bank, in cells; steepest 20 degrees. */
+
+enum { SIZE = 81 };
+static const double scale = 3, steepest = 20, limit = 8;
+
+struct bank {
+    struct hm_lattice l;
+    double *z, *slope, nx, ny; /* unit vector across the bank */
+};
+
+static struct bank make_bank(double angle)
+{
+    struct bank b = {.l = {SIZE, SIZE, -40.3, -39.8, 1, 1}, .nx = cos(angle), .ny = sin(angle)};
+    double height = 4 * scale * tan(steepest * degree), *gx = malloc(sizeof *gx * SIZE);
+    double *gy = malloc(sizeof *gy * SIZE), *start = malloc(sizeof *start * SIZE * SIZE);
+    struct hm_bsurf s;
+    b.z = malloc(sizeof *b.z * SIZE * SIZE);
+    b.slope = malloc(sizeof *b.slope * SIZE * SIZE);
+    hm_bsurf_init(&s, 2, SIZE, SIZE, 1, NULL);
+    for (int64_t j = 0; j < SIZE; j++)
+        for (int64_t i = 0; i < SIZE; i++) {
+            double x = b.l.x0 + (double)i, y = b.l.y0 + (double)j;
+            start[j * SIZE + i] = height / (1 + exp(-(x * b.nx + y * b.ny) / scale));
+            *hm_bsurf_at(&s, i, j) = start[j * SIZE + i];
+        }
+    hm_bsurf_drag(&s, start, 1, 1, NULL, NULL);
+    for (size_t j = 0; j < SIZE; j++)
+        hm_bsurf_row(&s, j, b.z + j * SIZE, NULL, NULL);
+    for (size_t j = 0; j < SIZE; j++) {
+        const double *const rows[3] = {j > 0 ? b.z + (j - 1) * SIZE : NULL, b.z + j * SIZE,
+                                       j + 1 < SIZE ? b.z + (j + 1) * SIZE : NULL};
+        hm_slope_gradient(HM_SLOPE_OVER_DISTANCE, rows, SIZE, 1, 1, gx, gy);
+        for (size_t i = 0; i < SIZE; i++)
+            b.slope[j * SIZE + i] = hm_slope_of(gx[i], gy[i], HM_SLOPE_DEGREE);
+    }
+    hm_bsurf_free(&s);
+    free(start);
+    free(gx);
+    free(gy);
+    return b;
+}
+
+struct error {
+    double worst, sum, vertices, length, straight;
+    bool steep_left;
+};
+
+/* The true lines lie at s = ±3 ln(f / (1 - f)), where 4 f (1 - f) tan 20° = tan limit. */
+static void measure(const struct bank *b, const struct hm_lines *lines, struct error *e)
+{
+    double part = tan(limit * degree) / tan(steepest * degree);
+    double f = (1 + sqrt(1 - part)) / 2, s_true = scale * log(f / (1 - f));
+    for (size_t k = 0; k < lines->n; k++) {
+        const struct hm_line *line = &lines->line[k];
+        const double *first = line->xyz, *last = line->xyz + 3 * (line->n - 1);
+        for (size_t v = 0; v < line->n; v++) {
+            const double *p = line->xyz + 3 * v;
+            if (fmax(fabs(p[0]), fabs(p[1])) > 36) /* one-sided slopes at the border of the grid */
+                continue;
+            double away = fabs(fabs(p[0] * b->nx + p[1] * b->ny) - s_true);
+            e->worst = fmax(e->worst, away);
+            e->sum += away;
+            e->vertices++;
+        }
+        e->length += hm_polyline_length(line);
+        e->straight += hypot(last[0] - first[0], last[1] - first[1]);
+        /* the bank's middle is on the left */
+        double side = (last[0] - first[0]) * (0 - first[1]) - (last[1] - first[1]) * (0 - first[0]);
+        e->steep_left = e->steep_left && side > 0;
+    }
+}
+
+static void test_bank(void)
+{
+    struct error interpolated = {.steep_left = true}, node = {.steep_left = true},
+                 mean = {.steep_left = true};
+    bool two = true, ratio = true;
+    for (int k = 0; k < 10; k++) {
+        struct bank b = make_bank((3 + 36 * k) * degree);
+        struct error before = interpolated;
+        struct hm_lines a =
+            trace(&b.l, b.slope, b.z, limit, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+        struct hm_lines c = trace(&b.l, b.slope, b.z, limit, HM_CONTOUR_NODE, HM_CONTOUR_SPLIT);
+        struct hm_lines m =
+            trace(&b.l, b.slope, b.z, limit, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_MEAN);
+        measure(&b, &a, &interpolated);
+        measure(&b, &c, &node);
+        measure(&b, &m, &mean);
+        two = two && a.n == 2 && m.n == 2;
+        ratio = ratio && interpolated.length - before.length <
+                             1.02 * (interpolated.straight - before.straight);
+        hm_lines_free(&a);
+        hm_lines_free(&c);
+        hm_lines_free(&m);
+        free(b.z);
+        free(b.slope);
+    }
+    printf("# interp: worst %.4f mean %.4f length ratio %.5f; node: worst %.3f mean %.3f length "
+           "ratio %.3f; mean: worst %.4f\n",
+           interpolated.worst, interpolated.sum / interpolated.vertices,
+           interpolated.length / interpolated.straight, node.worst, node.sum / node.vertices,
+           node.length / node.straight, mean.worst);
+    ok(two, "a bank has a toe and a crest, each one line");
+    ok(interpolated.worst < 0.1, "interpolated lines lie within 0.1 cells of the true ones");
+    ok(ratio, "their length is within 2 %% of the true one at each angle");
+    ok(mean.worst < 0.1, "so do the means of the cells' crossings");
+    ok(node.sum / node.vertices >= 4 * interpolated.sum / interpolated.vertices,
+       "the zigzag of node mode is at least four times as far off");
+    ok(interpolated.steep_left && node.steep_left && mean.steep_left, "steep side on the left");
+}
+
+/* --- small grids --- */
+
+static void test_peak(void)
+{
+    const double slope[] = {0, 0, 0, 0, 9, 0, 0, 0, 0}, z[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    struct hm_lattice up = {3, 3, 0, 0, 1, 1}, down = {3, 3, 0, 2, 1, -1};
+    struct hm_lines a = trace(&up, slope, z, 3, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    ok(a.n == 1 && a.line[0].closed && a.line[0].n == 4, "a steep node is ringed by a closed line");
+    ok(hm_polygon_area2(&a.line[0]) > 0, "counter-clockwise: the steep side on its left");
+    bool exact = true;
+    for (size_t k = 0; k < a.line[0].n; k++) {
+        const double *p = a.line[0].xyz + 3 * k; /* z = x + 3 y, a third of the way */
+        exact = exact && fabs(fabs(p[0] - 1) + fabs(p[1] - 1) - 2.0 / 3) < 1e-15 &&
+                fabs(p[2] - p[0] - 3 * p[1]) < 1e-14;
+    }
+    ok(exact, "equation (8) gives x, y and z");
+    struct hm_lines b = trace(&down, slope, z, 3, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    ok(b.n == 1 && hm_polygon_area2(&b.line[0]) > 0, "also when the grid comes north first");
+    struct hm_lines c = trace(&up, slope, z, 9, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    ok(c.n == 0, "an exact hit on one node leaves no line of length 0");
+    hm_lines_free(&a);
+    hm_lines_free(&b);
+    hm_lines_free(&c);
+}
+
+static void test_saddle(void)
+{
+    struct hm_lattice l = {2, 2, 0, 0, 1, 1};
+    const double high[] = {9, 0, 0, 9}, low[] = {9, 4, 4, 9}, z[] = {0, 0, 0, 0};
+    struct hm_lines a = trace(&l, high, z, 5, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    struct hm_lines b = trace(&l, low, z, 5, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    ok(a.n == 2 && b.n == 2, "a saddle gives two pieces");
+    /* mean 4.5 < 5: the steep corners are apart; mean 6.5: the others are */
+    bool apart = true, together = true;
+    for (size_t k = 0; k < 2; k++) {
+        const double *p = a.line[k].xyz, *q = b.line[k].xyz;
+        apart = apart && fabs((p[0] + p[3]) / 2 - (p[1] + p[4]) / 2) < 1e-15;
+        together = together && fabs((q[0] + q[3]) / 2 + (q[1] + q[4]) / 2 - 1) < 1e-15;
+    }
+    ok(apart, "steep corners are apart when the mean is not steep");
+    ok(together, "and together when it is");
+    hm_lines_free(&a);
+    hm_lines_free(&b);
+}
+
+/* Lines end at nodata, and every crossing of an edge between known cells is in exactly one line. */
+static void test_random(void)
+{
+    enum { NX = 57, NY = 43 };
+    struct hm_lattice l = {NX, NY, 0, 0, 1, 1};
+    static double slope[NX * NY];
+    uint32_t seed = 12345;
+    for (size_t k = 0; k < NX * NY; k++) {
+        seed = seed * 1664525u + 1013904223u;
+        slope[k] = seed >> 28 == 3 ? NAN : (double)(seed >> 24 & 15);
+    }
+    struct hm_lines lines = trace(&l, slope, slope, 7.5, HM_CONTOUR_INTERPOLATE, HM_CONTOUR_SPLIT);
+    size_t pieces = 0, want = 0;
+    bool heights = true;
+    for (size_t k = 0; k < lines.n; k++) {
+        pieces += hm_polyline_pieces(&lines.line[k]);
+        for (size_t v = 0; v < lines.line[k].n; v++)
+            heights = heights && fabs(lines.line[k].xyz[3 * v + 2] - 7.5) < 1e-12;
+    }
+    for (size_t j = 0; j + 1 < NY; j++)
+        for (size_t i = 0; i + 1 < NX; i++) {
+            const double *p = slope + j * NX + i;
+            const double c[5] = {p[0], p[1], p[NX + 1], p[NX], p[0]};
+            int crossings = 0;
+            for (int k = 0; k < 4; k++)
+                crossings += (c[k] >= 7.5) != (c[k + 1] >= 7.5);
+            want += isnan(c[0] + c[1] + c[2] + c[3]) ? 0 : (size_t)crossings / 2;
+        }
+    ok(pieces == want && want > 1000, "random slopes with holes: no piece is lost (%zu)", want);
+    ok(heights, "z is interpolated by the same weights");
+    size_t crossings = 0;
+    double tolerance = 0.4;
+    struct hm_lines simple = {0};
+    for (size_t k = 0; k < lines.n; k++)
+        hm_lines_append(&simple, &lines.line[k], NULL);
+    hm_simplify(&simple, tolerance, NULL);
+    size_t left = 0, had = 0;
+    for (size_t k = 0; k < simple.n; k++) {
+        left += simple.line[k].n;
+        had += lines.line[k].n;
+    }
+    /* put all lines into one to look for crossings: pairs of pieces, by brute force */
+    for (size_t a = 0; a < simple.n; a++)
+        for (size_t pa = 0; pa < hm_polyline_pieces(&simple.line[a]); pa++)
+            for (size_t b = a; b < simple.n; b++)
+                for (size_t pb = b == a ? pa + 1 : 0; pb < hm_polyline_pieces(&simple.line[b]);
+                     pb++) {
+                    const double *p = hm_polyline_from(&simple.line[a], pa);
+                    const double *q = hm_polyline_to(&simple.line[a], pa);
+                    const double *r = hm_polyline_from(&simple.line[b], pb);
+                    const double *s = hm_polyline_to(&simple.line[b], pb);
+                    double d1 = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+                    double d2 = (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0]);
+                    double d3 = (s[0] - r[0]) * (p[1] - r[1]) - (s[1] - r[1]) * (p[0] - r[0]);
+                    double d4 = (s[0] - r[0]) * (q[1] - r[1]) - (s[1] - r[1]) * (q[0] - r[0]);
+                    crossings += d1 * d2 < -1e-18 && d3 * d4 < -1e-18;
+                }
+    ok(crossings == 0, "simplified lines do not cross");
+    ok(left < had * 9 / 10, "but are simpler: %zu vertices of %zu", left, had);
+    hm_lines_free(&lines);
+    hm_lines_free(&simple);
+}
+
+/* --- changes of a line --- */
+
+static void test_smooth(void)
+{
+    double xyz[3 * 40], first[3 * 40], moved = 0, rough = 0, smooth = 0;
+    for (int k = 0; k < 40; k++) {
+        xyz[3 * k] = k;
+        xyz[3 * k + 1] = k % 2 ? 0.3 : -0.3;
+        xyz[3 * k + 2] = 5;
+    }
+    memcpy(first, xyz, sizeof xyz);
+    struct hm_line line = {.xyz = xyz, .n = 40};
+    rough = hm_polyline_length(&line);
+    hm_lineedit_smooth(&line, 0.2, NULL);
+    smooth = hm_polyline_length(&line);
+    for (int k = 0; k < 40; k++)
+        moved = fmax(moved, hypot(xyz[3 * k] - first[3 * k], xyz[3 * k + 1] - first[3 * k + 1]));
+    ok(moved <= 0.2 + 1e-15, "smoothing moves no vertex further than told");
+    ok(smooth < rough && xyz[0] == 0 && xyz[117] == 39, "it shortens a zigzag, ends stay");
+}
+
+int main(void)
+{
+    test_bank();
+    test_peak();
+    test_saddle();
+    test_random();
+    test_smooth();
+    return done();
+}

@@ -1,41 +1,17 @@
 /* hm_assemble: see hm_assemble.h. */
 #include "hm_assemble.h"
 #include "hm_attr.h"
-#include "hm_fence.h"
+#include "hm_build.h"
 #include "hm_hull.h"
 #include "hm_polyline.h"
-#include "hm_pred.h"
-#include "hm_role.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A closed line with a role. */
-struct ring {
-    struct hm_line line; /* not ours, but for the hull */
-    enum hm_role role;
-    int32_t region;
-};
-
-/* What goes into the first triangulation. */
-struct build {
-    const struct hm_assembly *in;
-    struct hm_assembly_counts *counts;
-    struct hm_fence *fence;
-    struct ring *ring;
-    size_t nrings, ring_cap;
-    double *hull; /* vertices of the outline when the user gave none */
-    struct hm_node *node;
-    size_t nnodes, node_cap, first_point, end_points; /* which of them are measurements */
-    struct hm_tri_segment *segment; /* of regular meshes, breaklines, the hull, rings */
-    size_t nsegments, segment_cap, first_breakline, first_hull, first_ring;
-    struct hm_tri *tri;
-    int32_t *inside; /* by component, number from 1: region + 1, or 0 outside the domain */
-};
-
-static enum hm_err add_node(struct build *b, const double *xyz, int32_t *number, struct hm_diag *d)
+static enum hm_err add_node(struct hm_build *b, const double *xyz, int32_t *number,
+                            struct hm_diag *d)
 {
     if (b->nnodes >= INT32_MAX / 6)
         return hm_fail(d, HM_ENOMEM, "more than %d points", INT32_MAX / 6);
@@ -46,7 +22,7 @@ static enum hm_err add_node(struct build *b, const double *xyz, int32_t *number,
     return HM_OK;
 }
 
-static enum hm_err add_segment(struct build *b, int32_t from, int32_t to, int32_t marks,
+static enum hm_err add_segment(struct hm_build *b, int32_t from, int32_t to, int32_t marks,
                                struct hm_diag *d)
 {
     if (!hm_grow(&b->segment, &b->segment_cap, b->nsegments + 1, sizeof *b->segment))
@@ -57,7 +33,7 @@ static enum hm_err add_segment(struct build *b, int32_t from, int32_t to, int32_
 
 /* --- regular meshes --- */
 
-static enum hm_err add_regular(struct build *b, struct hm_diag *d)
+static enum hm_err add_regular(struct hm_build *b, struct hm_diag *d)
 {
     enum hm_err err = HM_OK;
     for (size_t k = 0; k < b->in->nmeshes; k++) {
@@ -92,7 +68,7 @@ static const char *ring_name(enum hm_role role)
 }
 
 /* A line that has to be a ring: closed, of three vertices at least, not meeting itself. */
-static enum hm_err check_ring(struct ring *r, struct hm_diag *d)
+static enum hm_err check_ring(struct hm_ring *r, struct hm_diag *d)
 {
     struct hm_line *line = &r->line;
     const double *xyz = line->xyz, *last = xyz + 3 * (line->n - 1);
@@ -119,7 +95,7 @@ static enum hm_err check_ring(struct ring *r, struct hm_diag *d)
     return err;
 }
 
-static enum hm_err add_ring_segments(struct build *b, const struct ring *r, struct hm_diag *d)
+static enum hm_err add_ring_segments(struct hm_build *b, const struct hm_ring *r, struct hm_diag *d)
 {
     struct hm_segment *s;
     size_t n;
@@ -138,7 +114,7 @@ static enum hm_err add_ring_segments(struct build *b, const struct ring *r, stru
 }
 
 /* Find the rings among the lines. */
-static enum hm_err find_rings(struct build *b, struct hm_diag *d)
+static enum hm_err find_rings(struct hm_build *b, struct hm_diag *d)
 {
     for (size_t k = 0; k < b->in->nlines; k++)
         for (size_t i = 0; i < b->in->lines[k].n; i++) {
@@ -149,8 +125,8 @@ static enum hm_err find_rings(struct build *b, struct hm_diag *d)
                 continue;
             if (!hm_grow(&b->ring, &b->ring_cap, b->nrings + 1, sizeof *b->ring))
                 return hm_fail_memory(d);
-            struct ring *r = &b->ring[b->nrings++];
-            *r = (struct ring){.line = *line, .role = role};
+            struct hm_ring *r = &b->ring[b->nrings++];
+            *r = (struct hm_ring){.line = *line, .role = role};
             enum hm_err err = check_ring(r, d);
             if (err)
                 return err;
@@ -158,7 +134,7 @@ static enum hm_err find_rings(struct build *b, struct hm_diag *d)
     return HM_OK;
 }
 
-static bool has_outline(const struct build *b)
+static bool has_outline(const struct hm_build *b)
 {
     for (size_t k = 0; k < b->nrings; k++)
         if (b->ring[k].role == HM_ROLE_BOUNDARY)
@@ -168,7 +144,7 @@ static bool has_outline(const struct build *b)
 
 /* --- breaklines --- */
 
-static enum hm_err add_breakline(struct build *b, const struct hm_line *line, struct hm_diag *d)
+static enum hm_err add_breakline(struct hm_build *b, const struct hm_line *line, struct hm_diag *d)
 {
     int32_t first = (int32_t)b->nnodes, number = first;
     enum hm_err err = HM_OK;
@@ -187,7 +163,7 @@ static enum hm_err add_breakline(struct build *b, const struct hm_line *line, st
     return err;
 }
 
-static enum hm_err add_breaklines(struct build *b, struct hm_diag *d)
+static enum hm_err add_breaklines(struct hm_build *b, struct hm_diag *d)
 {
     struct hm_lines kept = {0};
     struct hm_assembly_counts *c = b->counts;
@@ -216,7 +192,7 @@ static enum hm_err add_breaklines(struct build *b, struct hm_diag *d)
 
 /* --- measurements, and their hull --- */
 
-static enum hm_err add_points(struct build *b, struct hm_diag *d)
+static enum hm_err add_points(struct hm_build *b, struct hm_diag *d)
 {
     b->first_point = b->nnodes;
     for (size_t k = 0; k < b->in->npoints; k++) {
@@ -239,7 +215,7 @@ static enum hm_err add_points(struct build *b, struct hm_diag *d)
 }
 
 /* Without an outline the convex hull of all that has a height is one. */
-static enum hm_err add_hull(struct build *b, struct hm_diag *d)
+static enum hm_err add_hull(struct hm_build *b, struct hm_diag *d)
 {
     const size_t stride = sizeof *b->node / sizeof(double);
     size_t *hull, n;
@@ -260,12 +236,12 @@ static enum hm_err add_hull(struct build *b, struct hm_diag *d)
     }
     free(hull);
     if (!err)
-        b->ring[b->nrings++] = (struct ring){.line = {.xyz = b->hull, .n = n, .closed = true},
-                                             .role = HM_ROLE_BOUNDARY};
+        b->ring[b->nrings++] = (struct hm_ring){.line = {.xyz = b->hull, .n = n, .closed = true},
+                                                .role = HM_ROLE_BOUNDARY};
     return err;
 }
 
-static enum hm_err add_outlines(struct build *b, struct hm_diag *d)
+static enum hm_err add_outlines(struct hm_build *b, struct hm_diag *d)
 {
     enum hm_err err = find_rings(b, d);
     size_t given = b->nrings;
@@ -279,14 +255,14 @@ static enum hm_err add_outlines(struct build *b, struct hm_diag *d)
 
 /* --- the first triangulation --- */
 
-static enum hm_err constrain(struct build *b, size_t from, size_t to, struct hm_tri_mends *mends,
+static enum hm_err constrain(struct hm_build *b, size_t from, size_t to, struct hm_tri_mends *mends,
                              struct hm_diag *d)
 {
     return hm_tri_constrain(b->tri, b->segment + from, to - from, mends, d);
 }
 
 /* Each edge of a regular mesh's boundary must still be one edge, else nodes would hang on it. */
-static enum hm_err check_regular(const struct build *b, const char *why, struct hm_diag *d)
+static enum hm_err check_regular(const struct hm_build *b, const char *why, struct hm_diag *d)
 {
     for (size_t k = 0; k < b->first_breakline; k++) {
         const struct hm_tri_segment *s = &b->segment[k];
@@ -298,7 +274,7 @@ static enum hm_err check_regular(const struct build *b, const char *why, struct 
     return HM_OK;
 }
 
-static enum hm_err triangulate(struct build *b, struct hm_diag *d)
+static enum hm_err triangulate(struct hm_build *b, struct hm_diag *d)
 {
     const size_t stride = sizeof *b->node / sizeof(double);
     struct hm_tri_mends hull = {0}, mends = {0};
@@ -338,72 +314,8 @@ static enum hm_err triangulate(struct build *b, struct hm_diag *d)
     return err;
 }
 
-/* --- what is inside --- */
-
-/* Region + 1 of the ground around (x, y), or 0 when it is not to be meshed. Of several region
- * polygons the last counts. */
-static int32_t ground_at(const struct build *b, double x, double y)
-{
-    bool odd = false;
-    int32_t region = 0;
-    for (size_t k = 0; k < b->nrings; k++) {
-        const struct ring *r = &b->ring[k];
-        if (hm_polygon_side(&r->line, x, y) <= 0)
-            continue;
-        if (r->role == HM_ROLE_HOLE)
-            return 0;
-        if (r->role == HM_ROLE_BOUNDARY)
-            odd = !odd;
-        else
-            region = r->region;
-    }
-    return odd && !hm_fence_is_inside(b->fence, x, y) ? region + 1 : 0;
-}
-
-/* Number the components that borders, regular meshes and regions leave, and judge each by the
- * centre of its largest triangle: farthest from what rounding did to its rim. */
-static enum hm_err judge(struct build *b, struct hm_diag *d)
-{
-    const int32_t stop = HM_EDGE_REGULAR | HM_EDGE_BORDER | HM_EDGE_REGION;
-    struct hm_tri *t = b->tri;
-    struct largest {
-        double area2, x, y;
-    } *largest = NULL;
-    size_t n = 0, cap = 0;
-    enum hm_err err = HM_OK;
-    for (int32_t tri = 0; !err && tri < hm_tri_triangles(t); tri++) {
-        if (!hm_tri_is_solid(t, tri))
-            continue;
-        if (hm_tri_region(t, tri) == 0) {
-            if (!hm_grow(&largest, &cap, n + 1, sizeof *largest))
-                err = hm_fail_memory(d);
-            else {
-                largest[n++] = (struct largest){-1, 0, 0};
-                err = hm_tri_flood(t, tri, stop, (int32_t)n, d);
-            }
-        }
-        const double *p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = hm_tri_xy(t, hm_tri_org(t, 3 * tri + k));
-        double area2 = hm_area2(p[0], p[1], p[2]);
-        struct largest *l = err ? NULL : &largest[hm_tri_region(t, tri) - 1];
-        if (l && area2 > l->area2)
-            *l = (struct largest){area2, (p[0][0] + p[1][0] + p[2][0]) / 3,
-                                  (p[0][1] + p[1][1] + p[2][1]) / 3};
-    }
-    b->inside = hm_alloc0(n + 1, sizeof *b->inside);
-    if (!err && !b->inside)
-        err = hm_fail_memory(d);
-    for (size_t k = 0; !err && k < n; k++)
-        b->inside[k + 1] = ground_at(b, largest[k].x, largest[k].y);
-    for (int32_t tri = 0; !err && tri < hm_tri_triangles(t); tri++)
-        hm_tri_set_region(t, tri, hm_tri_is_solid(t, tri) ? b->inside[hm_tri_region(t, tri)] : 0);
-    free(largest);
-    return err;
-}
-
 /* Holes of which no part is inside an outline. */
-static int64_t count_idle_holes(const struct build *b)
+static int64_t count_idle_holes(const struct hm_build *b)
 {
     int64_t idle = 0;
     for (size_t k = 0; k < b->nrings; k++) {
@@ -425,170 +337,10 @@ static int64_t count_idle_holes(const struct build *b)
     return idle;
 }
 
-/* --- the domain --- */
-
-/* The nodes that the inside uses, in the order in which they came in, then those that crossings
- * made. Of several at one place the first that has a height gives it. */
-static enum hm_err take_nodes(struct build *b, struct hm_domain *dom, struct hm_diag *d)
-{
-    struct hm_tri *t = b->tri;
-    int32_t vertices = hm_tri_vertices(t);
-    int64_t used = 0;
-    dom->node_of = hm_alloc((size_t)vertices, sizeof *dom->node_of);
-    if (!dom->node_of)
-        return hm_fail_memory(d);
-    for (int32_t v = 0; v < vertices; v++)
-        dom->node_of[v] = HM_OUTSIDE;
-    const int32_t wanted = HM_OUTSIDE - 1;
-    for (int32_t tri = 0; tri < hm_tri_triangles(t); tri++)
-        for (int k = 0; k < 3 && hm_tri_is_solid(t, tri) && hm_tri_region(t, tri) > 0; k++)
-            dom->node_of[hm_tri_org(t, 3 * tri + k)] = wanted;
-    for (size_t i = 0; i < b->nnodes; i++) {
-        int32_t v = hm_tri_of_input(t, i), node = dom->node_of[v];
-        bool measured = i >= b->first_point && i < b->end_points;
-        used += measured && node != HM_OUTSIDE;
-        b->counts->outside_points += measured && node == HM_OUTSIDE;
-        if (node >= 0 && !isfinite(dom->node[node].z))
-            dom->node[node].z = b->node[i].z;
-        if (node != wanted)
-            continue;
-        dom->node_of[v] = (int32_t)dom->nnodes;
-        enum hm_err err = hm_domain_add_node(dom, b->node[i], d);
-        if (err)
-            return err;
-    }
-    for (int32_t v = 0; v < vertices; v++) {
-        if (dom->node_of[v] != wanted)
-            continue;
-        const double *xy = hm_tri_xy(t, v);
-        dom->node_of[v] = (int32_t)dom->nnodes;
-        enum hm_err err =
-            hm_domain_add_node(dom, (struct hm_node){.x = xy[0], .y = xy[1], .z = NAN}, d);
-        if (err)
-            return err;
-    }
-    if (dom->nnodes == 0)
-        return hm_fail(d, HM_EGEOM,
-                       "outline, holes and regular meshes leave no ground to be meshed");
-    if (used == 0 && b->end_points > b->first_point)
-        return hm_fail(d, HM_EGEOM, "no measurement lies inside the outline");
-    return HM_OK;
-}
-
-static double edge_length(const struct hm_domain *dom, const struct hm_domain_edge *e)
-{
-    return sqrt(hm_node_distance2(&dom->node[e->a], &dom->node[e->b]));
-}
-
-static int by_ends(const void *pa, const void *pb)
-{
-    const struct hm_domain_edge *a = pa, *b = pb;
-    if (a->a != b->a)
-        return a->a < b->a ? -1 : 1;
-    return (a->b > b->b) - (a->b < b->b);
-}
-
-/* The fixed edges with the domain on one side at least. *stale: one came that no longer means
- * anything, as between two outlines that share an edge. */
-static enum hm_err take_edges(struct build *b, struct hm_domain *dom, bool *stale,
-                              struct hm_diag *d)
-{
-    struct hm_tri *t = b->tri;
-    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
-        int32_t twin, marks;
-        if (!hm_tri_is_solid(t, e / 3) || !(marks = hm_tri_marks(t, e)))
-            continue;
-        twin = hm_tri_twin(t, e);
-        if (twin < e && hm_tri_is_solid(t, twin / 3))
-            continue;
-        int32_t left = hm_tri_region(t, e / 3) - 1, right = hm_tri_region(t, twin / 3) - 1;
-        int32_t from = hm_tri_org(t, e), to = hm_tri_dest(t, e);
-        if (left == HM_OUTSIDE && right == HM_OUTSIDE) {
-            const double *p = hm_tri_xy(t, from), *q = hm_tri_xy(t, to);
-            if (marks & HM_EDGE_BREAKLINE)
-                b->counts->outside_length += hypot(q[0] - p[0], q[1] - p[1]);
-            continue;
-        }
-        if (left != HM_OUTSIDE && right != HM_OUTSIDE) {
-            marks &= HM_EDGE_BREAKLINE | HM_EDGE_REGION;
-            *stale = *stale || marks != hm_tri_marks(t, e);
-            if (!marks)
-                continue;
-        }
-        struct hm_domain_edge edge = {dom->node_of[from], dom->node_of[to], marks, left, right};
-        if (edge.a > edge.b) /* one direction, whatever the triangles' numbers */
-            edge = (struct hm_domain_edge){edge.b, edge.a, marks, right, left};
-        enum hm_err err = hm_domain_add_edge(dom, edge, d);
-        if (err)
-            return err;
-        dom->node[edge.a].flags |= HM_NODE_FIXED;
-        dom->node[edge.b].flags |= HM_NODE_FIXED;
-    }
-    qsort(dom->edge, dom->nedges, sizeof *dom->edge, by_ends);
-    return HM_OK;
-}
-
-static int by_value(const void *pa, const void *pb)
-{
-    const double *a = pa, *b = pb;
-    return (*a > *b) - (*a < *b);
-}
-
-static enum hm_err find_median(struct build *b, const struct hm_domain *dom, struct hm_diag *d)
-{
-    double *length = hm_alloc(dom->nedges, sizeof *length);
-    size_t n = 0;
-    if (!length)
-        return hm_fail_memory(d);
-    for (size_t k = 0; k < dom->nedges; k++)
-        if (dom->edge[k].marks & HM_EDGE_BREAKLINE)
-            length[n++] = edge_length(dom, &dom->edge[k]);
-    qsort(length, n, sizeof *length, by_value);
-    b->counts->median_segment = n > 0 ? length[n / 2] : 0;
-    free(length);
-    return HM_OK;
-}
-
-/* Heights of the nodes that have none: of outlines, of crossings, of lines drawn without. */
-static enum hm_err give_heights(const struct build *b, struct hm_domain *dom, struct hm_diag *d)
-{
-    int32_t hint = 0;
-    for (size_t i = 0; i < dom->nnodes; i++) {
-        struct hm_node *node = &dom->node[i];
-        if (isfinite(node->z))
-            continue;
-        node->z = hm_terrain_z_nearest(b->in->terrain, node->x, node->y, &hint);
-        if (!isfinite(node->z))
-            return hm_fail_at(d, HM_EGEOM, node->x, node->y,
-                              "nothing tells the height of a node: give points or a grid");
-    }
-    return HM_OK;
-}
-
-static enum hm_err fill_domain(struct build *b, struct hm_domain *dom, struct hm_diag *d)
-{
-    bool stale = false;
-    enum hm_err err = take_nodes(b, dom, d);
-    if (!err)
-        err = take_edges(b, dom, &stale, d);
-    if (!err)
-        err = give_heights(b, dom, d);
-    if (!err)
-        err = find_median(b, dom, d);
-    if (err)
-        return err;
-    dom->tri = b->tri;
-    b->tri = NULL;
-    if (!stale)
-        return hm_domain_number_vertices(dom, d);
-    hm_domain_changed(dom);
-    return hm_domain_triangulate(dom, b->in->threads, d);
-}
-
 enum hm_err hm_assemble(const struct hm_assembly *in, struct hm_domain *dom,
                         struct hm_assembly_counts *counts, struct hm_diag *d)
 {
-    struct build b = {.in = in, .counts = counts};
+    struct hm_build b = {.in = in, .counts = counts};
     *counts = (struct hm_assembly_counts){0};
     enum hm_err err = hm_fence_build(&b.fence, in->meshes, in->nmeshes, d);
     if (!err)
@@ -602,9 +354,9 @@ enum hm_err hm_assemble(const struct hm_assembly *in, struct hm_domain *dom,
     if (!err)
         err = triangulate(&b, d);
     if (!err)
-        err = judge(&b, d);
+        err = hm_build_judge(&b, d);
     if (!err)
-        err = fill_domain(&b, dom, d);
+        err = hm_build_domain(&b, dom, d);
     counts->idle_holes = count_idle_holes(&b);
     hm_fence_free(b.fence);
     hm_tri_free(b.tri);
@@ -612,6 +364,5 @@ enum hm_err hm_assemble(const struct hm_assembly *in, struct hm_domain *dom,
     free(b.hull);
     free(b.node);
     free(b.segment);
-    free(b.inside);
     return err;
 }

@@ -461,7 +461,8 @@ static enum hm_err join_one(const struct hm_fence *f, struct joining *j, struct 
     hm_segindex_box(f->index, lo, hi, add_stop, j);
     if (j->failed)
         return hm_fail_memory(d);
-    qsort(j->stop, j->n, sizeof *j->stop, by_t);
+    if (j->n > 1)
+        qsort(j->stop, j->n, sizeof *j->stop, by_t);
     const double *from = j->p;
     for (size_t k = 0; k <= j->n; k++) {
         const double *to = k < j->n ? j->stop[k].xyz : j->q;

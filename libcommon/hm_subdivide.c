@@ -127,7 +127,7 @@ static enum hm_err find_long(const struct hm_domain *dom, double most2, struct l
         int32_t e = hm_tri_edge_between(dom->tri, dom->vertex_of[edge->a], dom->vertex_of[edge->b]);
         err = add(list, dom, e, (int64_t)k, d);
     }
-    if (!err)
+    if (!err && list->n > 1)
         qsort(list->v, list->n, sizeof *list->v, longest_first);
     return err;
 }

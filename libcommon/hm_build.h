@@ -1,0 +1,39 @@
+/* hm_build: what hm_assemble works on. Internal to hm_assemble.c, which puts everything into one
+ * triangulation, and hm_ground.c, which finds in it the ground to be meshed.
+ */
+#ifndef HM_BUILD_H
+#define HM_BUILD_H
+
+#include "hm_assemble.h"
+#include "hm_fence.h"
+#include "hm_role.h"
+
+/* A closed line with a role. */
+struct hm_ring {
+    struct hm_line line; /* not ours, but for the hull */
+    enum hm_role role;
+    int32_t region;
+};
+
+/* What goes into the first triangulation. */
+struct hm_build {
+    const struct hm_assembly *in;
+    struct hm_assembly_counts *counts;
+    struct hm_fence *fence;
+    struct hm_ring *ring;
+    size_t nrings, ring_cap;
+    double *hull; /* vertices of the outline when the user gave none */
+    struct hm_node *node;
+    size_t nnodes, node_cap, first_point, end_points; /* which of them are measurements */
+    struct hm_tri_segment *segment; /* of regular meshes, breaklines, the hull, rings */
+    size_t nsegments, segment_cap, first_breakline, first_hull, first_ring;
+    struct hm_tri *tri;
+};
+
+/* Tell inside from outside: the regions of the triangulation become those of a domain. */
+enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d);
+
+/* Nodes, edges and triangulation of the inside, as a domain; outside pieces are counted. */
+enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d);
+
+#endif

@@ -1,0 +1,245 @@
+/* hm_ground: the ground to be meshed, and the domain that it makes. See hm_build.h. */
+#include "hm_build.h"
+#include "hm_polyline.h"
+#include "hm_pred.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* --- what is inside --- */
+
+/* Region + 1 of the ground around (x, y), or 0 when it is not to be meshed. Of several region
+ * polygons the last counts. */
+static int32_t ground_at(const struct hm_build *b, double x, double y)
+{
+    bool odd = false;
+    int32_t region = 0;
+    for (size_t k = 0; k < b->nrings; k++) {
+        const struct hm_ring *r = &b->ring[k];
+        if (hm_polygon_side(&r->line, x, y) <= 0)
+            continue;
+        if (r->role == HM_ROLE_HOLE)
+            return 0;
+        if (r->role == HM_ROLE_BOUNDARY)
+            odd = !odd;
+        else
+            region = r->region;
+    }
+    return odd && !hm_fence_is_inside(b->fence, x, y) ? region + 1 : 0;
+}
+
+/* The largest triangle of a component: its double area and its centre. */
+struct largest {
+    double area2, x, y;
+};
+
+struct components {
+    struct largest *v; /* component k has the region k + 1 */
+    size_t n, cap;
+};
+
+/* Number the components that borders, regular meshes and regions leave. */
+static enum hm_err find_components(struct hm_tri *t, struct components *c, struct hm_diag *d)
+{
+    const int32_t stop = HM_EDGE_REGULAR | HM_EDGE_BORDER | HM_EDGE_REGION;
+    for (int32_t tri = 0; tri < hm_tri_triangles(t); tri++) {
+        if (!hm_tri_is_solid(t, tri))
+            continue;
+        if (hm_tri_region(t, tri) == 0) {
+            if (!hm_grow(&c->v, &c->cap, c->n + 1, sizeof *c->v))
+                return hm_fail_memory(d);
+            c->v[c->n++] = (struct largest){-1, 0, 0};
+            enum hm_err err = hm_tri_flood(t, tri, stop, (int32_t)c->n, d);
+            if (err)
+                return err;
+        }
+        const double *p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = hm_tri_xy(t, hm_tri_org(t, 3 * tri + k));
+        double area2 = hm_area2(p[0], p[1], p[2]);
+        struct largest *l = &c->v[hm_tri_region(t, tri) - 1];
+        if (area2 > l->area2)
+            *l = (struct largest){area2, (p[0][0] + p[1][0] + p[2][0]) / 3,
+                                  (p[0][1] + p[1][1] + p[2][1]) / 3};
+    }
+    return HM_OK;
+}
+
+/* Each component is judged by the centre of its largest triangle, which is farthest from what
+ * rounding did to its rim. */
+enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d)
+{
+    struct components c = {0};
+    enum hm_err err = find_components(b->tri, &c, d);
+    int32_t *ground = hm_alloc(c.n, sizeof *ground);
+    if (!err && !ground)
+        err = hm_fail_memory(d);
+    for (size_t k = 0; !err && k < c.n; k++)
+        ground[k] = ground_at(b, c.v[k].x, c.v[k].y);
+    for (int32_t tri = 0; !err && tri < hm_tri_triangles(b->tri); tri++)
+        if (hm_tri_is_solid(b->tri, tri))
+            hm_tri_set_region(b->tri, tri, ground[hm_tri_region(b->tri, tri) - 1]);
+    free(ground);
+    free(c.v);
+    return err;
+}
+
+/* --- the domain --- */
+
+/* The nodes that the inside uses, in the order in which they came in, then those that crossings
+ * made. Of several at one place the first that has a height gives it. */
+static enum hm_err take_nodes(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
+{
+    struct hm_tri *t = b->tri;
+    int32_t vertices = hm_tri_vertices(t);
+    int64_t used = 0;
+    dom->node_of = hm_alloc((size_t)vertices, sizeof *dom->node_of);
+    if (!dom->node_of)
+        return hm_fail_memory(d);
+    for (int32_t v = 0; v < vertices; v++)
+        dom->node_of[v] = HM_OUTSIDE;
+    const int32_t wanted = HM_OUTSIDE - 1;
+    for (int32_t tri = 0; tri < hm_tri_triangles(t); tri++)
+        for (int k = 0; k < 3 && hm_tri_is_solid(t, tri) && hm_tri_region(t, tri) > 0; k++)
+            dom->node_of[hm_tri_org(t, 3 * tri + k)] = wanted;
+    for (size_t i = 0; i < b->nnodes; i++) {
+        int32_t v = hm_tri_of_input(t, i), node = dom->node_of[v];
+        bool measured = i >= b->first_point && i < b->end_points;
+        used += measured && node != HM_OUTSIDE;
+        b->counts->outside_points += measured && node == HM_OUTSIDE;
+        if (node >= 0 && !isfinite(dom->node[node].z))
+            dom->node[node].z = b->node[i].z;
+        if (node != wanted)
+            continue;
+        dom->node_of[v] = (int32_t)dom->nnodes;
+        enum hm_err err = hm_domain_add_node(dom, b->node[i], d);
+        if (err)
+            return err;
+    }
+    for (int32_t v = 0; v < vertices; v++) {
+        if (dom->node_of[v] != wanted)
+            continue;
+        const double *xy = hm_tri_xy(t, v);
+        dom->node_of[v] = (int32_t)dom->nnodes;
+        enum hm_err err =
+            hm_domain_add_node(dom, (struct hm_node){.x = xy[0], .y = xy[1], .z = NAN}, d);
+        if (err)
+            return err;
+    }
+    if (dom->nnodes == 0)
+        return hm_fail(d, HM_EGEOM,
+                       "outline, holes and regular meshes leave no ground to be meshed");
+    if (used == 0 && b->end_points > b->first_point)
+        return hm_fail(d, HM_EGEOM, "no measurement lies inside the outline");
+    return HM_OK;
+}
+
+static double edge_length(const struct hm_domain *dom, const struct hm_domain_edge *e)
+{
+    return sqrt(hm_node_distance2(&dom->node[e->a], &dom->node[e->b]));
+}
+
+static int by_ends(const void *pa, const void *pb)
+{
+    const struct hm_domain_edge *a = pa, *b = pb;
+    if (a->a != b->a)
+        return a->a < b->a ? -1 : 1;
+    return (a->b > b->b) - (a->b < b->b);
+}
+
+/* The fixed edges with the domain on one side at least. *stale: one came that no longer means
+ * anything, as between two outlines that share an edge. */
+static enum hm_err take_edges(struct hm_build *b, struct hm_domain *dom, bool *stale,
+                              struct hm_diag *d)
+{
+    struct hm_tri *t = b->tri;
+    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
+        int32_t twin, marks;
+        if (!hm_tri_is_solid(t, e / 3) || !(marks = hm_tri_marks(t, e)))
+            continue;
+        twin = hm_tri_twin(t, e);
+        if (twin < e && hm_tri_is_solid(t, twin / 3))
+            continue;
+        int32_t left = hm_tri_region(t, e / 3) - 1, right = hm_tri_region(t, twin / 3) - 1;
+        int32_t from = hm_tri_org(t, e), to = hm_tri_dest(t, e);
+        if (left == HM_OUTSIDE && right == HM_OUTSIDE) {
+            const double *p = hm_tri_xy(t, from), *q = hm_tri_xy(t, to);
+            if (marks & HM_EDGE_BREAKLINE)
+                b->counts->outside_length += hypot(q[0] - p[0], q[1] - p[1]);
+            continue;
+        }
+        if (left != HM_OUTSIDE && right != HM_OUTSIDE) {
+            marks &= HM_EDGE_BREAKLINE | HM_EDGE_REGION;
+            *stale = *stale || marks != hm_tri_marks(t, e);
+            if (!marks)
+                continue;
+        }
+        struct hm_domain_edge edge = {dom->node_of[from], dom->node_of[to], marks, left, right};
+        if (edge.a > edge.b) /* one direction, whatever the triangles' numbers */
+            edge = (struct hm_domain_edge){edge.b, edge.a, marks, right, left};
+        enum hm_err err = hm_domain_add_edge(dom, edge, d);
+        if (err)
+            return err;
+        dom->node[edge.a].flags |= HM_NODE_FIXED;
+        dom->node[edge.b].flags |= HM_NODE_FIXED;
+    }
+    qsort(dom->edge, dom->nedges, sizeof *dom->edge, by_ends);
+    return HM_OK;
+}
+
+static int by_value(const void *pa, const void *pb)
+{
+    const double *a = pa, *b = pb;
+    return (*a > *b) - (*a < *b);
+}
+
+static enum hm_err find_median(struct hm_build *b, const struct hm_domain *dom, struct hm_diag *d)
+{
+    double *length = hm_alloc(dom->nedges, sizeof *length);
+    size_t n = 0;
+    if (!length)
+        return hm_fail_memory(d);
+    for (size_t k = 0; k < dom->nedges; k++)
+        if (dom->edge[k].marks & HM_EDGE_BREAKLINE)
+            length[n++] = edge_length(dom, &dom->edge[k]);
+    qsort(length, n, sizeof *length, by_value);
+    b->counts->median_segment = n > 0 ? length[n / 2] : 0;
+    free(length);
+    return HM_OK;
+}
+
+/* Heights of the nodes that have none: of outlines, of crossings, of lines drawn without. */
+static enum hm_err give_heights(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
+{
+    int32_t hint = 0;
+    for (size_t i = 0; i < dom->nnodes; i++) {
+        struct hm_node *node = &dom->node[i];
+        if (isfinite(node->z))
+            continue;
+        node->z = hm_terrain_z_nearest(b->in->terrain, node->x, node->y, &hint);
+        if (!isfinite(node->z))
+            return hm_fail_at(d, HM_EGEOM, node->x, node->y,
+                              "nothing tells the height of a node: give points or a grid");
+    }
+    return HM_OK;
+}
+
+enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
+{
+    bool stale = false;
+    enum hm_err err = take_nodes(b, dom, d);
+    if (!err)
+        err = take_edges(b, dom, &stale, d);
+    if (!err)
+        err = give_heights(b, dom, d);
+    if (!err)
+        err = find_median(b, dom, d);
+    if (err)
+        return err;
+    dom->tri = b->tri;
+    b->tri = NULL;
+    if (!stale)
+        return hm_domain_number_vertices(dom, d);
+    hm_domain_changed(dom);
+    return hm_domain_triangulate(dom, b->in->threads, d);
+}

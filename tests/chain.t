@@ -40,11 +40,11 @@ bsgrid -b -d 2 survey.xyz | slope -b | breaklines -s 8 -l 30 -r 6 >piped.hm 2>/d
 same "breaklines through binary pipes" breaklines.hm piped.hm
 
 # The hybrid mesh covers its domain once: the elements' areas add up to the area of the outline.
-area=$(awk '/^v/ { x[n] = $2 - 545000; y[n++] = $3 - 5972000 }
+area=$(awk 'BEGIN { n = 0 } /^v/ { x[n] = $2 - 545000; y[n++] = $3 - 5972000 }
     /^[tq]/ { m = /^t/ ? 3 : 4
         for (i = 0; i < m; i++) { a = $(2 + i); b = $(2 + (i + 1) % m); s += x[a] * y[b] - x[b] * y[a] } }
     END { printf "%.17g", s / 2 }' hybrid.hm)
-outline=$(awk '/^>/ { on = /boundary=1/; next } on && !/^#/ { x[n] = $1 - 545000; y[n++] = $2 - 5972000 }
+outline=$(awk 'BEGIN { n = 0 } /^>/ { on = /boundary=1/; next } on && !/^#/ { x[n] = $1 - 545000; y[n++] = $2 - 5972000 }
     END { for (i = 0; i < n; i++) { j = (i + 1) % n; s += x[i] * y[j] - x[j] * y[i] }
           printf "%.17g", s < 0 ? -s / 2 : s / 2 }' lines.txt)
 true_that "area of the elements $area against the outline $outline" \

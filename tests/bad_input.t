@@ -11,9 +11,9 @@ refuses() {
     "$@" >refused.out 2>refused.err
     status=$?
     [ $status -eq 2 ] && grep -Eq -- "$pattern" refused.err && ! tail -n 1 refused.out | grep -q '^#end'
-    good=$?
-    report $good "$name"
-    [ $good -eq 0 ] || { echo "# status $status, wanted 2 and /$pattern/"; sed 's/^/# /' refused.err | head -5; }
+    refused=$?
+    report $refused "$name"
+    [ $refused -eq 0 ] || { echo "# status $status, wanted 2 and /$pattern/"; sed 's/^/# /' refused.err | head -5; }
 }
 
 # The good operands of a tool; @ stands for the input that is spoilt.
@@ -21,7 +21,7 @@ operands() {
     case $1 in
     bsgrid) echo "-d 4 @" ;;
     slope | breaklines | stitch | hmconv | hmdraw) echo "@" ;;
-    bsmesh) echo "lines.txt @ survey.xyz" ;;
+    bsmesh) echo "-c 15/6 -e 12/5 lines.txt @ survey.xyz" ;;
     trimesh) echo "-l 6 -L 20 lines.txt @" ;;
     quality) echo "@ survey.xyz" ;;
     esac

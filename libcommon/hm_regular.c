@@ -1,6 +1,7 @@
 #include "hm_regular.h"
 
 #include "hm_coons.h"
+#include "hm_drape.h"
 #include "hm_polyline.h"
 #include "hm_pred.h"
 #include "hm_thread.h"
@@ -223,16 +224,21 @@ static enum hm_err drag_plane(struct plan *p, const struct hm_regular_how *how, 
 
 /* --- heights --- */
 
-enum { CHUNK = 1024 };
+enum {
+    CHUNK = 1024,
+    SAMPLES = 4 /* of the terrain, to a cell of control points in each direction */
+};
 
 struct sampling {
     const struct hm_terrain *terrain;
     struct plan *plan;
+    double *z; /* na × nb samples, as hm_drape wants them */
+    size_t na, nb;
 };
 
 /* z where the surface has its Greville sites, and at the control points themselves, from where the
  * dragging starts: on a plane the surface then is that plane before the first iteration. */
-static void sample_chunk(void *arg, size_t chunk)
+static void sample_net(void *arg, size_t chunk)
 {
     const struct sampling *q = arg;
     const struct plan *p = q->plan;
@@ -244,6 +250,19 @@ static void sample_chunk(void *arg, size_t chunk)
         hm_bsurf_eval(&p->out->surface, (double)(k % p->n), (double)(k / p->n), b, NULL, NULL);
         b[2] = hm_terrain_z(q->terrain, b[0], b[1], &hint);
         c[2] = hm_terrain_z(q->terrain, c[0], c[1], &hint);
+    }
+}
+
+static void sample_terrain(void *arg, size_t chunk)
+{
+    const struct sampling *q = arg;
+    size_t all = q->na * q->nb, end = (chunk + 1) * CHUNK < all ? (chunk + 1) * CHUNK : all;
+    int32_t hint = 0;
+    for (size_t k = chunk * CHUNK; k < end; k++) {
+        double b[3];
+        hm_bsurf_eval(&q->plan->out->surface, (double)(k % q->na) / SAMPLES,
+                      (double)(k / q->na) / SAMPLES, b, NULL, NULL);
+        q->z[k] = hm_terrain_z(q->terrain, b[0], b[1], &hint);
     }
 }
 
@@ -313,43 +332,36 @@ static enum hm_err check_cover(const struct plan *p, struct hm_diag *d)
     return HM_OK;
 }
 
-static enum hm_err fill_heights(struct plan *p, struct hm_diag *d)
+/* A start for every control point: the terrain, or a height filled in. */
+static void start_heights(const struct plan *p)
 {
     struct hm_regular *out = p->out;
-    double *filled = hm_alloc(p->n * p->m, sizeof *filled);
-    if (!filled)
-        return hm_fail_memory(d);
     for (size_t k = 0; k < p->n * p->m; k++) {
         double *c = hm_bsurf_at(&out->surface, (int64_t)(k % p->n), (int64_t)(k / p->n));
         const double *b = p->z + 3 * k;
-        filled[k] = b[2];
-        if (isnan(b[2])) {
-            filled[k] = fill_height(p, k % p->n, k / p->n);
-            if (out->unknown++ == 0)
-                memcpy(out->unknown_at, b, sizeof out->unknown_at);
-        }
+        if (isnan(b[2]) && out->unknown++ == 0)
+            memcpy(out->unknown_at, b, sizeof out->unknown_at);
         if (isnan(c[2]))
-            c[2] = filled[k];
+            c[2] = isnan(b[2]) ? fill_height(p, k % p->n, k / p->n) : b[2];
     }
-    for (size_t k = 0; k < p->n * p->m; k++)
-        p->z[3 * k + 2] = filled[k];
-    free(filled);
-    return HM_OK;
 }
 
 static enum hm_err drag_heights(struct plan *p, const struct hm_terrain *terrain,
                                 const struct hm_regular_how *how, struct hm_diag *d)
 {
-    struct sampling q = {terrain, p};
-    hm_thread_for(how->threads, (p->n * p->m + CHUNK - 1) / CHUNK, sample_chunk, &q);
+    struct sampling q = {terrain, p, NULL, (p->n - 1) * SAMPLES + 1, (p->m - 1) * SAMPLES + 1};
+    hm_thread_for(how->threads, (p->n * p->m + CHUNK - 1) / CHUNK, sample_net, &q);
     enum hm_err err = check_cover(p, d);
-    if (!err)
-        err = fill_heights(p, d);
     if (err)
         return err;
-    for (size_t k = 0; k < p->n * p->m; k++)
-        p->z[3 * k] = p->z[3 * k + 1] = NAN; /* x and y stay now */
-    return hm_bsurf_drag(&p->out->surface, p->z, how->iterations, how->threads, NULL, d);
+    start_heights(p);
+    q.z = hm_alloc(q.na * q.nb, sizeof *q.z);
+    if (!q.z)
+        return hm_fail_memory(d);
+    hm_thread_for(how->threads, (q.na * q.nb + CHUNK - 1) / CHUNK, sample_terrain, &q);
+    err = hm_drape(&p->out->surface, q.z, q.na, q.nb, how->iterations, how->threads, d);
+    free(q.z);
+    return err;
 }
 
 enum hm_err hm_regular_surface(struct hm_regular *s, const struct hm_rough *rough,

@@ -2,7 +2,8 @@
  * section 5. Layer 5.
  *
  *     rough lines → control points on both banks → snapped to breaklines (hm_snap)
- *                 → Coons patch → x, y dragged through them, z dragged to the terrain (hm_bspline)
+ *                 → Coons patch → x, y dragged through them (hm_bspline)
+ *                 → z dragged to the terrain (hm_drape)
  *                 → nodes at constant Δu, Δv → triangles or quadrilaterals
  *
  * The surface has uniform knots and a ring of extrapolated control points, so that it ends in the

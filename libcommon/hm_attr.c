@@ -164,6 +164,8 @@ char *hm_attr_set(const char *attrs, const char *key, const char *value)
     while (copied = p, take_item(&p, &item)) {
         if (has_key(&item, key) && !value)
             continue; /* goes, with the blanks before it */
+        if (out == set)
+            copied = item.key; /* nothing stands before it any more */
         if (has_key(&item, key)) {
             memcpy(out, copied, (size_t)(item.key - copied));
             out = put_item(out + (item.key - copied), key, value);

@@ -22,6 +22,7 @@ struct mesh2dm {
     struct string *string;
     size_t strings, string_cap;
     size_t *order; /* nodes by id, when ids are not 1, 2, 3 … */
+    int32_t none;  /* the material that stands for region 0; 0: none does */
 };
 
 static void free_2dm(void *state)
@@ -147,6 +148,19 @@ static enum hm_err read_string(struct hm_reader *r, const char *s, const char *e
     return HM_OK;
 }
 
+/* `MAT 4 "region 0"`, as hm_export_2dm writes it: material 4 is what had no region. Other materials
+ * keep their numbers, whatever their names. */
+static void read_material(struct mesh2dm *m, const char *s, const char *end)
+{
+    static const char name[] = "\"region 0\"";
+    int32_t id;
+    if (!cut_id(&s, end, &id))
+        return;
+    s = hm_row_skip(s, end);
+    if ((size_t)(end - s) >= sizeof name - 1 && !memcmp(s, name, sizeof name - 1))
+        m->none = id;
+}
+
 /* Cards that mean nothing here are passed over, but not elements that would be missed. */
 static enum hm_err read_card(struct hm_reader *r, struct hm_header *h, const char *s,
                              const char *end, struct hm_diag *d)
@@ -161,6 +175,8 @@ static enum hm_err read_card(struct hm_reader *r, struct hm_header *h, const cha
         return read_elem(r, s + 3, end, 4, d);
     if (hm_row_begins(s, end, "NS"))
         return read_string(r, s + 2, end, d);
+    if (hm_row_begins(s, end, "MAT"))
+        read_material(r->state, s + 3, end);
     if (hm_row_begins(s, end, "E6T") || hm_row_begins(s, end, "E8Q") ||
         hm_row_begins(s, end, "E9Q"))
         return hm_input_fail(&r->in, HM_EFORMAT, d, "elements with mid-side nodes are not read");
@@ -234,7 +250,7 @@ static enum hm_err number_elems(struct hm_reader *r, struct hm_diag *d)
         int64_t numbers[5];
         for (int k = 0; k < corners; k++)
             numbers[k] = find_node(m, e->node[k]);
-        numbers[corners] = e->region;
+        numbers[corners] = e->region == m->none ? 0 : e->region;
         const char *why = hm_form_make_elem(e, numbers, corners, m->mesh.nnodes);
         if (why)
             return hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "%s (element %zu of the file)", why,

@@ -11,9 +11,10 @@
 /* A verdict on the survey: a criterion and who asks for it. */
 static const struct {
     const char *criterion, *what, *source;
-} verdicts[] = {{"rmse<=0.15", "RMSE at most 0.15 m", "FEMA 2003, Appendix A (LiDAR for floodplain mapping)"},
-                {"within>=95", "95 % within 0.294 m", "NSSDA (FGDC-STD-007.3-1998): 1.96 x 0.15 m"},
-                {"red<5", "red under 5 %", "the paper of the scheme, section 7"}};
+} verdicts[] = {
+    {"rmse<=0.15", "RMSE at most 0.15 m", "FEMA 2003, Appendix A (LiDAR for floodplain mapping)"},
+    {"within>=95", "95 % within 0.294 m", "NSSDA (FGDC-STD-007.3-1998): 1.96 x 0.15 m"},
+    {"red<5", "red under 5 %", "the paper of the scheme, section 7"}};
 enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
 
 static enum hm_err judge(const struct hm_quality *q, int verdict, struct hm_criterion *c,
@@ -122,11 +123,15 @@ static void say_histogram(struct text *t, const struct hm_meshstat *s)
 {
     static const char bar[] = "########################################";
     int64_t most = 1;
-    for (int k = 0; k < HM_MESHSTAT_BINS; k++)
+    int bins = 0; /* up to the last that holds any */
+    for (int k = 0; k < HM_MESHSTAT_BINS; k++) {
         if (s->histogram[k] > most)
             most = s->histogram[k];
+        if (s->histogram[k])
+            bins = k + 1;
+    }
     say(t, "\n  smallest angle of an element, degrees\n");
-    for (int k = 0; k < HM_MESHSTAT_BINS; k++) {
+    for (int k = 0; k < bins; k++) {
         int length = (int)((s->histogram[k] * 40 + most - 1) / most);
         say(t, "    %2d - %2d %10lld%s%.*s\n", 5 * k, 5 * k + 5, (long long)s->histogram[k],
             length ? "  " : "", length, bar);

@@ -117,7 +117,7 @@ double hm_residuals_percentile(const struct hm_residuals *s, double percent)
 {
     if (!s->n)
         return NAN;
-    double wanted = percent / 100 * (double)s->n, largest = fmax(-s->least.r, s->most.r);
+    double wanted = percent / 100 * (double)s->n, largest = fmax(fabs(s->least.r), fabs(s->most.r));
     uint64_t seen = 0;
     for (size_t bin = 0; bin + 1 < FINE_BINS + COARSE_BINS; bin++) {
         seen += s->bins[bin];

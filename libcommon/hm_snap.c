@@ -18,7 +18,7 @@ static const double COST_JUMP = 0.1;    /* from one breakline to the next in its
 static const double COST_OFFSET = 6.0;  /* and the reach beside its prolongation */
 static const double COST_LEAVE = 0.3;   /* between moved and unmoved */
 static const double LEAST_STEP = 0.2;   /* of a control distance that each point must go forward */
-static const double MOST_DETOUR = 2.5;  /* length along a breakline over the straight way */
+static const double MOST_DETOUR = 1.5;  /* length along a breakline over the straight way */
 
 enum { MOST_TARGETS = 12, GLIDES = 8 };
 
@@ -277,11 +277,20 @@ static void find_targets(struct fit *f, size_t i)
 
 /* --- the cheapest way through the targets (dynamic programming) --- */
 
-/* How far q lies beside the straight prolongation of the line at p, over the reach. */
-static double offset_beside(const struct target *p, const double q[2], double reach)
+/* How far q lies beside the straight prolongation of the line at p, over `unit`, at most 1. */
+static double offset_beside(const struct target *p, const double q[2], double unit)
 {
     double side = p->dir[0] * (q[1] - p->xy[1]) - p->dir[1] * (q[0] - p->xy[0]);
-    return reach > 0 ? fmin(1, fabs(side) / reach) : 0;
+    return fmin(1, fabs(side) / unit);
+}
+
+/* Do two targets lie on the same stretch of one breakline? Not when it turns back between them, as
+ * where a toe runs round the end of a bank and comes back as its crest. */
+static bool same_stretch(const struct fit *f, const struct target *p, const struct target *q)
+{
+    double straight = hypot(q->xy[0] - p->xy[0], q->xy[1] - p->xy[1]);
+    return p->line >= 0 && p->line == q->line &&
+           fabs(way_along(f->b, p->line, p->s, q->s)) <= MOST_DETOUR * straight;
 }
 
 /* The price of going from target p of point i to target q of the next; infinite for going back. */
@@ -300,11 +309,10 @@ static double step_cost(const struct fit *f, size_t i, const struct target *p,
         return COST_LEAVE;
     double dx = go[0] - want[0], dy = go[1] - want[1];
     double cost = COST_STRETCH * (dx * dx + dy * dy) / length2;
-    if (p->line == q->line &&
-        fabs(way_along(f->b, p->line, p->s, q->s)) <= MOST_DETOUR * hypot(go[0], go[1]))
+    if (same_stretch(f, p, q))
         return cost;
-    double beside = offset_beside(p, q->xy, f->bank->reach[i]);
-    double before = offset_beside(q, p->xy, f->bank->reach[i + 1]);
+    double unit = sqrt(length2) / 2;
+    double beside = offset_beside(p, q->xy, unit), before = offset_beside(q, p->xy, unit);
     return cost + COST_JUMP + COST_OFFSET * (beside * beside + before * before) / 2;
 }
 
@@ -342,25 +350,30 @@ static void find_way(struct fit *f, const struct target **way)
 
 /* Feet crowd on the inside of a bend and gape on the outside. Let the points glide along their
  * breakline, GLIDES times a half of the way to the middle of their neighbours: the spacing evens
- * out over a few control points, the order cannot change. */
+ * out over a few control points, the order cannot change. None glides farther than half a control
+ * distance. */
 static enum hm_err glide(const struct fit *f, const struct target *const *way, double *xy,
                          struct hm_diag *d)
 {
     size_t n = f->bank->n;
-    double *s = hm_alloc(2 * n, sizeof *s), *next = s + n;
+    double *s = hm_alloc(2 * n, sizeof *s), *next = s + n, most = 0;
     if (!s)
         return hm_fail_memory(d);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
+        const double *p = rough(f, i), *before = rough(f, i > 0 ? i - 1 : 0);
+        most += hypot(p[0] - before[0], p[1] - before[1]) / (double)(n - 1) / 2;
         s[i] = next[i] = way[i]->s;
+    }
     for (int round = 0; round < GLIDES; round++) {
         for (size_t i = 1; i + 1 < n; i++) {
             int32_t l = way[i]->line;
-            if (l < 0 || way[i - 1]->line != l || way[i + 1]->line != l)
+            if (!same_stretch(f, way[i - 1], way[i]) || !same_stretch(f, way[i], way[i + 1]))
                 continue;
             double back = way_along(f->b, l, s[i], s[i - 1]);
             double ahead = way_along(f->b, l, s[i], s[i + 1]);
             if ((back > 0) != (ahead > 0))
                 next[i] = s[i] + (back + ahead) / 4;
+            next[i] = fmin(fmax(next[i], way[i]->s - most), way[i]->s + most);
         }
         memcpy(s, next, n * sizeof *s);
     }

@@ -3,9 +3,10 @@
  * A segment is followed from its start through the triangles that it crosses. Where it meets a
  * vertex its first piece ends; the triangles crossed until then are a hole that is filled anew on
  * both sides of the piece. Where it crosses a constraint, a vertex comes to be at the intersection,
- * rounded to doubles, and both are led through it. Rounding moves a constraint by less than the
- * last digit, so what lies that near may come to lie on it, or on the other side of it; but the
- * triangulation is one of straight edges after every step, decided by exact predicates.
+ * rounded to doubles, and both are led through it. That bends a constraint by a last digit (a few
+ * where many cross in one spot), so what lies that near may come to lie on it, or on its other
+ * side; but the triangulation is one of straight edges after every step, decided by exact
+ * predicates.
  */
 #include "hm_pred.h"
 #include "hm_tri_topology.h"
@@ -107,6 +108,8 @@ static enum hm_err cut(struct constrain *c, int32_t a, int32_t b, int32_t marks)
         err = hm_tri_fill_prepare(t, &t->right, c->d);
     if (err)
         return err;
+    hm_tri_rim_match(t, &t->left);
+    hm_tri_rim_match(t, &t->right);
     int32_t e = hm_tri_fill(t, &t->left, HM_TRI_NONE);
     hm_tri_fill(t, &t->right, e);
     mark(c, e, marks);
@@ -151,12 +154,11 @@ static void intersect(const struct quad *quad, double *p)
     }
 }
 
-/* Is p within a last digit of the segment a b? */
-static bool is_near(const double *p, const double *a, const double *b)
+static bool is_near(const double *p, const double *a, const double *b, double distance)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], size = dx * dx + dy * dy;
     double part = size > 0 ? middle(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / size, 1) : 0;
-    return hypot(p[0] - (a[0] + part * dx), p[1] - (a[1] + part * dy)) <= DBL_EPSILON / 2;
+    return hypot(p[0] - (a[0] + part * dx), p[1] - (a[1] + part * dy)) <= distance;
 }
 
 /* Take a constraint off edge e, and restore the Delaunay property. */
@@ -172,15 +174,17 @@ static enum hm_err release(struct constrain *c, int32_t e)
 /* The vertex that the crossing of a b and u w shall go through, when it is one of these four; p is
  * the intersection. An end so near the other segment that rounding cannot tell it from the
  * intersection is taken for it: lines that all but coincide would cross again and again, each
- * time a digit further on. Ends of u w come first, since then it can stay as it is. */
-static int32_t choose_end(const struct quad *quad, const int32_t *v, const double *p)
+ * time a digit further on. Ends of u w come first, since then it can stay as it is; and what counts
+ * as near grows with the bends, or three constraints a digit apart may hand their crossing round.
+ */
+static int32_t choose_end(const struct quad *quad, const int32_t *v, const double *p, int bends)
 {
     static const int order[4] = {2, 3, 0, 1};
     for (int i = 0; i < 4; i++) {
         int k = order[i], other = k < 2 ? 2 : 0;
         const double *q = quad->q[k];
         if ((ldexp(q[0], quad->shift) == p[0] && ldexp(q[1], quad->shift) == p[1]) ||
-            is_near(q, quad->q[other], quad->q[other + 1]))
+            is_near(q, quad->q[other], quad->q[other + 1], (1 + bends) * DBL_EPSILON / 2))
             return v[k];
     }
     return HM_TRI_NONE;
@@ -197,7 +201,7 @@ static enum hm_err cross(struct constrain *c, struct task s, int32_t e)
     struct quad quad = scale(t, ends);
     double p[2];
     intersect(&quad, p);
-    int32_t v = choose_end(&quad, ends, p);
+    int32_t v = choose_end(&quad, ends, p, s.bends);
     c->mends->crossings++;
     enum hm_err err = HM_OK;
     bool leads = v != u && v != w; /* must e be led to the vertex? */

@@ -206,6 +206,7 @@ enum hm_err hm_tri_remove(struct hm_tri *t, int32_t v, struct hm_diag *d)
     if (err)
         return err;
     t->left.n--; /* the last link is the base */
+    hm_tri_rim_match(t, &t->left);
     hm_tri_fill(t, &t->left, t->left.link[t->left.n].outer);
     while (t->n_hole > 0)
         hm_tri_give_triangle(t, t->hole[--t->n_hole]);

@@ -15,16 +15,8 @@ enum hm_err hm_tri_rim_add(struct hm_tri *t, struct hm_tri_rim *rim, int32_t h, 
 {
     if (!hm_grow(&rim->link, &rim->cap, rim->n + 1, sizeof *rim->link))
         return hm_fail_memory(d);
-    struct hm_tri_link *link = &rim->link[rim->n];
-    *link = (struct hm_tri_link){t->half[h].org, t->half[h].twin, hm_tri_marks_of(t, h)};
-    size_t i = rim->n; /* behind the last link that is not matched yet */
-    while (i > 0 && rim->link[i - 1].outer <= -2)
-        i = (size_t)(-2 - rim->link[i - 1].outer);
-    if (i > 0 && rim->link[i - 1].outer == h) {
-        link->outer = -2 - (int32_t)(i - 1);
-        rim->link[i - 1].outer = -2 - (int32_t)rim->n;
-    }
-    rim->n++;
+    rim->link[rim->n++] =
+        (struct hm_tri_link){t->half[h].org, t->half[h].twin, hm_tri_marks_of(t, h)};
     return HM_OK;
 }
 
@@ -38,13 +30,25 @@ enum hm_err hm_tri_rim_end(struct hm_tri_rim *rim, int32_t v, struct hm_diag *d)
 
 void hm_tri_rim_reverse(struct hm_tri_rim *rim)
 {
-    for (size_t i = 0; i < rim->n; i++)
-        if (rim->link[i].outer <= -2)
-            rim->link[i].outer = -2 - ((int32_t)rim->n - 1 - (-2 - rim->link[i].outer));
     for (size_t i = 0, k = rim->n; i + 1 < k; i++) {
         struct hm_tri_link swap = rim->link[--k];
         rim->link[k] = rim->link[i];
         rim->link[i] = swap;
+    }
+}
+
+/* The half-edges inside a hole are done with: each gets the number of its link for a twin. So a
+ * link whose other side has such a number lies on an edge with the hole on both sides. */
+void hm_tri_rim_match(struct hm_tri *t, struct hm_tri_rim *rim)
+{
+    for (size_t i = 0; i < rim->n; i++) {
+        int32_t inner = t->half[rim->link[i].outer].twin;
+        if (inner <= -2) {
+            rim->link[i].outer = inner;
+            rim->link[-2 - inner].outer = -2 - (int32_t)i;
+        } else {
+            t->half[inner].twin = -2 - (int32_t)i;
+        }
     }
 }
 

@@ -157,8 +157,13 @@ void hm_tri_rim_reverse(struct hm_tri_rim *rim);
 enum hm_err hm_tri_hole_add(struct hm_tri *t, int32_t tri, struct hm_diag *d);
 enum hm_err hm_tri_fill_prepare(struct hm_tri *t, const struct hm_tri_rim *rim, struct hm_diag *d);
 
+/* Find the edges that the rim goes along twice; for each rim of a hole before any is filled, and
+ * only when nothing can fail any more. */
+void hm_tri_rim_match(struct hm_tri *t, struct hm_tri_rim *rim);
+
 /* Triangulate the polygon of a rim and the base from its last vertex to its first, constrained
- * Delaunay, with triangles out of t->hole. Needs hm_tri_fill_prepare, then cannot fail. `outer` is
+ * Delaunay, with triangles out of t->hole. Needs hm_tri_fill_prepare and
+ * hm_tri_rim_match, then cannot fail. `outer` is
  * the half-edge on the other side of the base, or HM_TRI_NONE; returns that on the inside. */
 int32_t hm_tri_fill(struct hm_tri *t, struct hm_tri_rim *rim, int32_t outer);
 

@@ -190,6 +190,19 @@ awk '$1 < 200' plane.xyz >half.xyz
 must_fail "terrain that ends" 2 "no terrain under the outflow end of surface 'main'" \
     bsmesh -c 10/8 -e 10/4 lines.txt half.xyz
 
+# --- a real river, with breaklines found in its survey ---
+
+if need_data danube_deggendorf/points.xyz; then
+    survey=$DATA/danube_deggendorf/points.xyz
+    bsgrid -d 5 -g 60 "$survey" 2>/dev/null | slope | breaklines -s 10 -l 100 -r 12 >found.hm 2>/dev/null
+    ok "the Danube" bsmesh -o danube.hm -c 25/20 -e 16/10 "$TESTS/danube_lines.txt" found.hm "$survey"
+    set -- $(sed -n 's/.* \([0-9]*\) of \([0-9]*\) control points on the banks moved.*/\1 \2/p' tap.err)
+    true_that "nine of ten control points find a breakline" "$1 > 0.9 * $2"
+    set -- $(area danube.hm)
+    true_that "elements counter-clockwise" "$2 > 0"
+    ok "quadrilaterals there" bsmesh -o danube.hm -Q -c 25/20 -e 16/10 "$TESTS/danube_lines.txt" found.hm "$survey"
+fi
+
 # --- what is refused ---
 
 refuse() { # NAME PATTERN LINES [OPTION …]

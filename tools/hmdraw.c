@@ -14,9 +14,10 @@ static struct {
     const char *region; /* w/e/s/n, NULL: all there is */
     double size;        /* pixels */
     int type, fill;     /* enum format, enum fill */
+    int levels;         /* of each colour channel */
     bool has_type, plain;
     const char *title, *band;
-} cmd = {.size = 1600, .title = ""};
+} cmd = {.size = 1600, .levels = 256, .title = ""};
 
 static const struct hm_option options[] = {
     {'R', "region", "W/E/S/N", HM_OPT_TEXT, &cmd.region, .help = "window to draw (default: all)"},
@@ -30,6 +31,8 @@ static const struct hm_option options[] = {
     {'B', "band", "NAME", HM_OPT_TEXT, &cmd.band,
      .help = "draw this band of grids (default z, shaded)"},
     {'T', "title", "TEXT", HM_OPT_TEXT, &cmd.title, .help = "title above the map"},
+    {'l', "levels", "N", HM_OPT_NATURAL, &cmd.levels,
+     .help = "PNG: steps of each colour, 2 to 256; 16 for small files (default 256)"},
     {'P', "plain", NULL, HM_OPT_FLAG, &cmd.plain, .help = "the map alone: no frame, no legend"},
     {0}};
 
@@ -323,9 +326,11 @@ int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct drawing drawing = {0};
-    struct page page = {.plain = cmd.plain, .format = choose_format(cli)};
+    struct page page = {.plain = cmd.plain, .levels = cmd.levels, .format = choose_format(cli)};
     if (cmd.size < 64 || cmd.size > 20000)
         hm_cli_die(cli, "--size: must be within 64 and 20000 pixels");
+    if (cmd.levels < 2 || cmd.levels > 256)
+        hm_cli_die(cli, "--levels: must be within 2 and 256");
     if (cmd.region)
         parse_window(cli, cmd.region, &drawing.view);
     read_layers(cli, &drawing);

@@ -27,14 +27,14 @@
 
 static struct {
     uint64_t seed;
-    double width;   /* metres; the domain is width × 2/3 width */
-    double density; /* LiDAR points a square metre */
-    double points;  /* or their number, gaps not counted; 0: by density */
-    double sigma;   /* metres */
-    double blunders;
-    bool truth; /* only answer what the height is */
+    double width;    /* metres; the domain is width × 2/3 width */
+    double density;  /* LiDAR points a square metre */
+    double points;   /* or their number, gaps not counted; 0: by density */
+    double sigma;    /* metres */
+    double blunders; /* their number; < 0: one in 12,800 points, 30 by default */
+    bool truth;      /* only answer what the height is */
     const char *dir;
-} cmd = {.seed = 1, .width = 480, .density = 2.5, .sigma = 0.05, .blunders = 30};
+} cmd = {.seed = 1, .width = 480, .density = 2.5, .sigma = 0.05, .blunders = -1};
 
 static void die(const char *what, const char *why)
 {
@@ -76,8 +76,11 @@ static void parse(int argc, char **argv)
     }
     if (!cmd.truth && !cmd.dir)
         die("DIR", "is missing");
+    const double area = cmd.width * cmd.width * 2 / 3;
     if (cmd.points > 0)
-        cmd.density = cmd.points / (cmd.width * cmd.width * 2 / 3);
+        cmd.density = cmd.points / area;
+    if (cmd.blunders < 0)
+        cmd.blunders = floor(cmd.density * area / 12800 + 0.5);
 }
 
 static FILE *create(const char *name)

@@ -60,6 +60,7 @@ static void setting(void)
     ok(sets("a=0  b=2\tc", "a", "1", "a=1  b=2\tc"), "set replaces in place, others as they were");
     ok(sets("a=0 b=2 a=3", "a", "1", "a=1 b=2"), "set leaves only one");
     ok(sets("b=2 a=0 c", "a", NULL, "b=2 c"), "removed with its blanks");
+    ok(sets("a=0 b=2  c", "a", NULL, "b=2  c"), "the first removed: no blank in its place");
     ok(sets("a=0", "a", NULL, ""), "the last one removed");
     ok(sets("b", "a", "x y", "b a=\"x y\""), "blanks are quoted");
     ok(sets("", "a", "q\"\\", "a=\"q\\\"\\\\\""), "so are quotes and backslashes");

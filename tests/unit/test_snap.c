@@ -222,6 +222,31 @@ static void test_fragments(void)
     clear(s);
 }
 
+/* One breakline along a toe, round the end of the bank and back along the crest, which cross the
+ * rough line in turn: points on it must not glide round its end. */
+static void test_hairpin(void)
+{
+    struct scene *s = &scene;
+    enum { SIDE = 151 };
+    double xyz[2 * SIDE * 3];
+    for (int i = 0; i < SIDE; i++) {
+        double x = 2.0 * i, *toe = xyz + 3 * i, *crest = xyz + 3 * (2 * SIDE - 1 - i);
+        toe[0] = crest[0] = x;
+        double t = fmin(1, fmax(0, (x - 100) / 100)); /* the two cross half way */
+        toe[1] = 1 + 6 * t;
+        crest[1] = 7 - 6 * t;
+        toe[2] = crest[2] = 0;
+    }
+    add_line(s, "", false, xyz, 2 * SIDE);
+    straight_bank(s, 30, 8);
+    snap_it(s, 0, 1);
+    double least = 99;
+    for (size_t i = 1; i < s->n; i++)
+        least = fmin(least, s->xy[2 * i] - s->xy[2 * i - 2]);
+    ok(least > 2, "toe and crest in one line: forward all the way (%.2f)", least);
+    clear(s);
+}
+
 int main(void)
 {
     test_straight();
@@ -231,5 +256,6 @@ int main(void)
     test_crossing_line();
     test_bend();
     test_fragments();
+    test_hairpin();
     return done();
 }

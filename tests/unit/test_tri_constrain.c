@@ -32,7 +32,7 @@ static void on_coarse_doubles(struct drawing *g)
     int range = 4 + (int)(draw() % 60);
     for (int i = 0; i < 2 * g->points; i++)
         g->xy[i] = 0x1p52 + (double)(draw() % (uint64_t)range);
-    g->slack = 4;
+    g->slack = 12;
 }
 
 static void anywhere(struct drawing *g)

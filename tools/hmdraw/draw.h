@@ -68,6 +68,7 @@ struct page {
     enum format format;
     double width, height; /* pixels */
     double em;            /* size of the text, pixels */
+    int levels;           /* of each colour channel in a PNG, 2 .. 256 */
     bool plain;           /* the map alone, without frame and panel */
     bool has_ground;      /* something opaque was drawn already: fills become transparent */
     struct legend_item item[LEGEND_ITEMS];

@@ -101,7 +101,7 @@ static int by_value(const void *a, const void *b)
 static double exaggeration(const struct field *f, int64_t reach, double step)
 {
     enum { MOST = 20000 };
-    double steep[MOST];
+    double steep[MOST] = {0};
     size_t n = 0;
     int64_t stride = f->width * f->height / MOST + 1;
     for (int64_t k = 0; k < f->width * f->height; k += stride) {
@@ -141,8 +141,8 @@ static void paint_relief(struct image *image, const struct field *f, int64_t rea
             if (isnan(z))
                 continue;
             gradient(f, x, y, reach, s);
-            double light = step_to(0.35 + 0.65 * shade(s, stretch), 24);
-            struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 40));
+            double light = step_to(0.35 + 0.65 * shade(s, stretch), 32);
+            struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 48));
             image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
         }
 }

@@ -118,21 +118,21 @@ static double class_alpha(const struct page *page, int32_t class, enum fill fill
     return class > 0 ? 0.7 : 0.25;
 }
 
-static void fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,
-                       int32_t wanted, enum fill fill)
+/* Returns how many elements of the class lie in the window. */
+static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,
+                          int32_t wanted, enum fill fill)
 {
     page_colour(page, class_colour(wanted, fill), class_alpha(page, wanted, fill));
-    int pending = 0;
+    int64_t count = 0;
     for (size_t k = 0; k < m->nelems; k++) {
         if (class[k] != wanted || !is_visible(&page->view, m, &m->elem[k]))
             continue;
         element_path(page, m, &m->elem[k]);
-        if (++pending == PIECE) {
+        if (++count % PIECE == 0)
             cairo_fill(page->cr);
-            pending = 0;
-        }
     }
     cairo_fill(page->cr);
+    return count;
 }
 
 static void enter_class(struct page *page, const struct hm_mesh *m, int32_t class, int64_t count,
@@ -145,12 +145,14 @@ static void enter_class(struct page *page, const struct hm_mesh *m, int32_t clas
     if (fill != FILL_REGION)
         return;
     owner_name(m, class, name);
+    const char *role = hm_header_get(&m->header, "role");
+    bool irregular = role && !strcmp(role, "irregular");
     if (owned && class > 0)
         legend_add(page, MARK_FILL, colour, count, "%s", name);
     else if (class > 0)
         legend_add(page, MARK_FILL, colour, count, "region %d", (int)class);
     else
-        legend_add(page, MARK_FILL, colour, count, owned ? "irregular" : "elements");
+        legend_add(page, MARK_FILL, colour, count, "%s", owned || irregular ? "irregular" : "mesh");
 }
 
 /* Paint every class in turn, from the lowest, and enter it in the legend. */
@@ -160,16 +162,15 @@ static void fill_elements(struct page *page, const struct hm_mesh *m, const int3
     int64_t last = -1;
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_NONE);
     for (;;) {
-        int64_t next = INT64_MAX, count = 0;
+        int64_t next = INT64_MAX;
         for (size_t k = 0; k < m->nelems; k++)
-            if (class[k] > last && class[k] <= next) {
-                count = class[k] == next ? count + 1 : 1;
+            if (class[k] > last && class[k] < next)
                 next = class[k];
-            }
         if (next == INT64_MAX)
             break;
-        fill_class(page, m, class, (int32_t)next, fill);
-        enter_class(page, m, (int32_t)next, count, fill, owned);
+        int64_t count = fill_class(page, m, class, (int32_t)next, fill);
+        if (count)
+            enter_class(page, m, (int32_t)next, count, fill, owned);
         last = next;
     }
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_DEFAULT);
@@ -244,6 +245,14 @@ static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const 
     return HM_OK;
 }
 
+static int64_t count_visible(const struct page *page, const struct hm_mesh *m)
+{
+    int64_t count = 0;
+    for (size_t k = 0; k < m->nelems; k++)
+        count += is_visible(&page->view, m, &m->elem[k]);
+    return count;
+}
+
 enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill,
                       struct range heights, struct hm_diag *d)
 {
@@ -260,7 +269,7 @@ enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill
     if (fill != FILL_WIRE)
         fill_elements(page, m, class, fill, owned);
     if (fill != FILL_REGION)
-        legend_add(page, MARK_LINE, INK, (int64_t)m->nelems, "Mesh");
+        legend_add(page, MARK_LINE, INK, count_visible(page, m), "Elements");
     if (fill == FILL_Z)
         legend_bar(page, RAMP_HEIGHT, heights, "Height (m)");
     enum hm_err err = draw_wires(page, m, class, fill, d);

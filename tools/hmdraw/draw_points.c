@@ -95,7 +95,9 @@ enum hm_err draw_points(struct page *page, const struct hm_points *p, struct ran
         } else if (!isnan(row[2])) {
             c = ramp_colour(RAMP_HEIGHT, range_part(heights, row[2]));
         }
-        put_dot(&image, x, y, radius, c);
+        /* what lies beside the mesh shall not drown what lies on it */
+        bool aside = residual >= 0 && isnan(row[residual]);
+        put_dot(&image, x, y, aside ? radius / 2 : radius, c);
     }
     enter_residuals(page, count);
     if (residual < 0) {

@@ -146,17 +146,26 @@ static void click_levee(FILE *out, const struct terrain *t, struct rng *rng)
     }
 }
 
-/* A boundary string: straight across the river at parameter s. */
+/* A boundary string: along the outline, `margin` inside the domain, from bank to bank of the river
+ * that crosses it at parameter s. */
 static void click_string(FILE *out, const struct terrain *t, enum feature f, double s,
-                         const char *name)
+                         double margin, const char *name)
 {
     const struct section *section = &terrain_section[f];
-    double half = section->half + section->run * section->height - 2, p[2];
+    const double half = section->half + section->run * section->height - 2;
+    double axis[2];
+    curve_offset(&t->axis[f], s, 0, axis);
+    const bool west = axis[0]<margin + 2, east = axis[0]> t->w - margin - 2;
     fprintf(out, "> string=%s\n", name);
-    curve_offset(&t->axis[f], s, half, p);
-    print_vertex(out, p);
-    curve_offset(&t->axis[f], s, -half, p);
-    print_vertex(out, p);
+    for (int side = 1; side >= -1; side -= 2) {
+        double p[2];
+        curve_offset(&t->axis[f], s, side * half, p);
+        if (west || east)
+            p[0] = west ? margin : t->w - margin;
+        else
+            p[1] = t->h - margin;
+        print_vertex(out, p);
+    }
 }
 
 void trace_rough(FILE *out, const struct terrain *t, uint64_t seed)
@@ -177,7 +186,9 @@ void trace_rough(FILE *out, const struct terrain *t, uint64_t seed)
     print_vertex(out, (double[]){t->w - outline, outline});
     print_vertex(out, (double[]){t->w - outline, t->h - outline});
     print_vertex(out, (double[]){outline, t->h - outline});
-    click_string(out, t, MAIN, from, "inflow");
-    click_string(out, t, TRIBUTARY, source, "inflow_tributary");
-    click_string(out, t, MAIN, to, "outflow");
+    double begin = find_border(t, MAIN, 0, 0, outline, true);
+    click_string(out, t, MAIN, begin, outline, "inflow");
+    click_string(out, t, TRIBUTARY, find_border(t, TRIBUTARY, 0, 0, outline, true), outline,
+                 "inflow_tributary");
+    click_string(out, t, MAIN, find_border(t, MAIN, begin, 0, outline, false), outline, "outflow");
 }

@@ -1,0 +1,257 @@
+#!/bin/sh
+# quality: every statistic against a case worked by hand and against awk over the residuals.
+. "${0%/*}/tap.sh"
+
+# value KEY [N]: the N-th (default: last) number behind "KEY": in report.json
+value() {
+    awk -v key="\"$1\":" -v n="${2:-0}" '$1 == key { seen++; v = $2; if (seen == n) exit }
+        END { sub(/,$/, "", v); print v }' report.json
+}
+
+# measure KEY: the value in the object "KEY": of report.json
+measure() {
+    awk -v key="\"$1\":" '$1 == key { getline; sub(/,$/, "", $2); print $2; exit }' report.json
+}
+
+# near NAME GOT WANT TOLERANCE
+near() {
+    true_that "$1" "(($2) - ($3)) <= ($4) && (($3) - ($2)) <= ($4)"
+}
+
+# --- by hand: a square of 10 m, z rising from 1 to 2 with y, and a triangle beside it ---
+cat >square.hm <<'END'
+#hm 1 mesh text
+#name main
+#role hybrid
+#data
+v 0 0 1 1 0
+v 10 0 1 1 0
+v 10 10 2 1 0
+v 0 10 2 1 0
+v 20 0 1 1 0
+q 0 1 2 3 0
+t 1 4 2 3
+#end
+END
+# residuals -0.125, 0, 0.25, none, none, 0, -0.375: 0 on the border; exact in binary
+cat >seven.xyz <<'END'
+1 5 1.625
+5 5 1.5
+12 0 0.75
+30 30 5
+3 5 nan
+20 0 1
+10 5 1.875
+END
+ok "a report" quality -J -o report.json -r residuals.hm square.hm seven.xyz
+near "given" "$(value given)" 7 0
+near "without height" "$(value without_height)" 1 0
+near "outside" "$(value outside)" 1 0
+near "compared" "$(value compared)" 5 0
+near "mean" "$(value mean)" -0.05 1e-15
+near "sigma" "$(value sigma)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5 - 0.0025)" 1e-15
+near "RMSE" "$(value rmse)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
+near "1.96 RMSE" "$(value rmse196)" "1.96 * sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
+near "95th percentile" "$(value p95)" 0.375 1e-4
+near "green" "$(value green)" 40 1e-12
+near "yellow" "$(value yellow)" 40 1e-12
+near "red" "$(value red)" 20 1e-12
+near "within 0.294 m" "$(value within)" 80 1e-12
+near "area" "$(value area)" 150 1e-12
+near "neighbours" "$(value neighbours)" 1 0
+true_that "nodes $(value nodes), triangles $(value triangles), quadrilaterals $(value quadrilaterals)" \
+    "$(value nodes) == 5 && $(value triangles) == 1 && $(value quadrilaterals) == 1"
+near "smallest angle, a right isosceles triangle" "$(measure smallest_angle)" 45 1e-12
+near "largest angle" "$(measure largest_angle)" 90 1e-12
+near "smallest area" "$(measure smallest_area)" 50 1e-12
+near "largest area" "$(measure largest_area)" 100 1e-12
+near "edge ratio" "$(measure largest_edge_ratio)" "sqrt(2)" 1e-12
+near "area ratio of the two" "$(measure largest_area_ratio)" 2 1e-12
+cat >want <<'END'
+1 5 1.625 -0.125 2
+5 5 1.5 0 1
+12 0 0.75 0.25 2
+30 30 5 nan 0
+3 5 nan nan 0
+20 0 1 0 1
+10 5 1.875 -0.375 3
+END
+grep -v '^#' residuals.hm >got
+same "the residual stream" want got
+grep '^#fields' residuals.hm >got
+echo "#fields x y z residual class" >want
+same "its fields" want got
+quality square.hm seven.xyz >report.txt
+ok "the text has the row of Table 2" grep -Eq \
+    '^  all +5 +40.0% +40.0% +20.0% +-0.0500 +0.2031 +0.2092$' report.txt
+ok "the text has the extremes" sh -c "grep -q 'lowest .*-0.3750 m  at 10.000 5.000' report.txt &&
+    grep -q 'highest .*0.2500 m  at 12.000 0.000' report.txt"
+ok "the verdicts" sh -c "grep -c '^  miss' report.txt | grep -qx 3"
+sed 's/^#name.*/#name a "b" \\c/' square.hm >named.hm
+quality -J named.hm seven.xyz | grep '"name"' >got
+cat >want <<'END'
+  "name": "a \"b\" \\c",
+END
+same "JSON escapes quotes and backslashes" want got
+quality -t 0.2,0.4 -J -o report.json square.hm seven.xyz
+true_that "other thresholds: 60 % green, no red" "$(value green) == 60 && $(value red) == 0"
+
+# --- a wavy mesh of quadrilaterals and triangles, and 30,000 points: awk as a second opinion ---
+awk 'BEGIN {
+    print "#hm 1 mesh text\n#name wave\n#data"
+    for (j = 0; j <= 20; j++) for (i = 0; i <= 30; i++)
+        printf "v %.3f %.3f %.3f 0 0\n", 500000 + 5 * i + sin(i + 2 * j), 5970000 + 5 * j + cos(3 * i + j), 5 * sin(i / 4) + j / 5
+    for (j = 0; j < 20; j++) for (i = 0; i < 30; i++) {
+        a = 31 * j + i
+        if ((i + j) % 2) print "q", a, a + 1, a + 32, a + 31, 0
+        else { print "t", a, a + 1, a + 32, 0; print "t", a, a + 32, a + 31, 0 } }
+    print "#end" }' >wave.hm
+awk 'BEGIN { s = 12345
+    for (k = 0; k < 30000; k++) {
+        s = (s * 16807) % 2147483647; x = 155 * s / 2147483647 - 2
+        s = (s * 16807) % 2147483647; y = 105 * s / 2147483647 - 2
+        s = (s * 16807) % 2147483647; z = 5 * sin(x / 20) + y / 25 + 0.6 * (s / 2147483647 - 0.5)
+        if (k % 1000 == 7) z = "nan"
+        print 500000 + x, 5970000 + y, z } }' OFMT=%.3f CONVFMT=%.3f >many.xyz
+quality -J -s 1,5,30,100 -o report.json -r residuals.hm wave.hm many.xyz
+awk '!/^#/ { n++; if ($3 == "nan") none++; else if ($4 == "nan") out++
+        else { r = $4; m++; s += r; q += r * r; if (r < 0) r = -r; print r
+            g += r <= 0.1; y += r > 0.1 && r <= 0.3; d += r > 0.3; w += r <= 0.294
+            if (r > most) most = r } }
+    END { print n, none, out, m, s / m, sqrt(q / m - (s / m) ^ 2), sqrt(q / m), 100 * g / m, 100 * y / m,
+        100 * d / m, 100 * w / m, most >"sums" }' CONVFMT=%.15g OFMT=%.15g residuals.hm | LC_ALL=C sort -g >sorted
+read -r n none out m mean sigma rmse green yellow red within most <sums
+p95=$(awk -v m="$m" 'NR >= 0.95 * m { print; exit }' sorted)
+echo "$n $none $out $m" >want
+echo "$(value given) $(value without_height) $(value outside) $(value compared)" >got
+same "awk: counts" want got
+true_that "some are outside" "$out > 100"
+near "awk: mean" "$(value mean)" "$mean" 1e-12
+near "awk: sigma" "$(value sigma)" "$sigma" 1e-11
+near "awk: RMSE" "$(value rmse)" "$rmse" 1e-11
+near "awk: green" "$(value green)" "$green" 1e-9
+near "awk: yellow" "$(value yellow)" "$yellow" 1e-9
+near "awk: red" "$(value red)" "$red" 1e-9
+near "awk: within 0.294 m" "$(value within)" "$within" 1e-9
+true_that "awk: 95 % within, up to a bin of 0.1 mm" "$(value p95) >= $p95 && $(value p95) <= $p95 + 1e-4"
+near "the worst residual" "$(awk '/"worst_residuals"/ { on = 1 }
+    on && $1 == "\"residual\":" { sub(/,/, "", $2); printf "%.17g", $2 < 0 ? -$2 : $2; exit }' report.json)" "$most" 1e-12
+near "a sample of 100 % is all" "$(value points 4)" "$(value points 5)" 0
+near "the 30 % sample, four standard deviations" "$(value points 3)" "0.3 * $m" "4 * sqrt(0.21 * $m)"
+near "the 1 % sample, four standard deviations" "$(value points 1)" "0.01 * $m" "4 * sqrt(0.0099 * $m)"
+
+# residuals against the mesh's height worked out independently, in the triangles
+worst=$(awk 'BEGIN { n = 0 }
+    FNR == 1 { file++ }
+    file == 1 && /^v/ { x[n] = $2 - 500000; y[n] = $3 - 5970000; z[n++] = $4 }
+    file == 1 && /^t/ { t++; a[t] = $2; b[t] = $3; c[t] = $4 }
+    file == 2 && !/^#/ && $4 != "nan" && ++seen % 100 == 0 {
+        px = $1 - 500000; py = $2 - 5970000
+        for (k = 1; k <= t; k++) {
+            i = a[k]; j = b[k]; l = c[k]
+            area = (x[j] - x[i]) * (y[l] - y[i]) - (x[l] - x[i]) * (y[j] - y[i])
+            u = ((x[j] - px) * (y[l] - py) - (x[l] - px) * (y[j] - py)) / area
+            v = ((x[l] - px) * (y[i] - py) - (x[i] - px) * (y[l] - py)) / area
+            if (u > 1e-9 && v > 1e-9 && u + v < 1 - 1e-9) {
+                e = u * z[i] + v * z[j] + (1 - u - v) * z[l] - $3 - $4
+                if (e < 0) e = -e
+                if (e > most) most = e
+                found++ } } }
+    END { printf "%.3g", (found > 50 ? most : 1) }' wave.hm residuals.hm)
+true_that "heights of triangles by barycentric coordinates" "$worst < 1e-9"
+
+# shapes
+awk 'BEGIN { n = 0 }
+    /^v/ { x[n] = $2; y[n++] = $3 }
+    function angle(p, q, r,    ax, ay, bx, by) { # at q, from r round to p
+        ax = x[r] - x[q]; ay = y[r] - y[q]; bx = x[p] - x[q]; by = y[p] - y[q]
+        return atan2(ax * by - ay * bx, ax * bx + ay * by) * 180 / atan2(0, -1) }
+    /^[tq]/ { m = /^t/ ? 3 : 4; least = 360; short = 1e9; long = 0; area = 0
+        for (i = 0; i < m; i++) { p = $(2 + (i + m - 1) % m); q = $(2 + i); r = $(2 + (i + 1) % m)
+            b = angle(p, q, r)
+            if (b < least) least = b
+            if (b > largest) largest = b
+            l = sqrt((x[r] - x[q]) ^ 2 + (y[r] - y[q]) ^ 2)
+            if (l < short) short = l
+            if (l > long) long = l
+            area += ((x[q] - x[$2]) * (y[r] - y[$2]) - (x[r] - x[$2]) * (y[q] - y[$2])) / 2 }
+        if (!k++ || least < smallest) smallest = least
+        if (long / short > ratio) ratio = long / short
+        if (!least_area || area < least_area) least_area = area
+        u30 += least < 30; total += area }
+    END { printf "%.15g %.15g %.15g %.15g %d %.15g\n", smallest, largest, ratio, least_area, u30, total }' wave.hm >shapes
+read -r smallest largest ratio least_area under30 total <shapes
+near "awk: smallest angle" "$(measure smallest_angle)" "$smallest" 1e-6
+near "awk: largest angle" "$(measure largest_angle)" "$largest" 1e-6
+near "awk: smallest area" "$(measure smallest_area)" "$least_area" 1e-6
+near "awk: edge ratio" "$(measure largest_edge_ratio)" "$ratio" 1e-6
+near "awk: angles under 30" "$(value angle_under_30)" "$under30" 0
+near "awk: area of all" "$(value area)" "$total" 1e-4
+
+# --- order, threads, encodings: the same bytes ---
+quality wave.hm many.xyz >report.txt
+quality many.xyz wave.hm >other.txt
+same "points first, mesh later" report.txt other.txt
+quality -j 1 -r one.hm wave.hm many.xyz >other.txt
+same "one thread" report.txt other.txt
+quality -j 3 -r three.hm wave.hm many.xyz >other.txt
+same "residuals: one thread as three" one.hm three.hm
+cat many.xyz wave.hm | quality >other.txt
+same "all through one pipe" report.txt other.txt
+quality -S 2 wave.hm many.xyz >other.txt
+ok "another seed: other samples" sh -c "! cmp -s report.txt other.txt"
+ok "the same sums" sh -c "grep '^  all' report.txt >a; grep '^  all' other.txt | cmp - a"
+quality -b -r binary.hm wave.hm many.xyz >/dev/null
+ok "residuals in binary" sh -c "hmconv binary.hm | cmp - one.hm"
+
+# --- the engineers' mesh of the Danube: its nodes are the survey ---
+if need_data danube_deggendorf/reference_mesh_triangles.txt.gz; then
+    points=$DATA/danube_deggendorf/points.xyz
+    { printf '#hm 1 mesh text\n#data\n'
+      awk '{ print "v", $0, 0, 0 }' "$points"
+      gzip -dc "$DATA/danube_deggendorf/reference_mesh_triangles.txt.gz" | awk '{ print "t", $0, 0 }'
+      echo '#end'; } >danube.hm
+    quality -J -o report.json danube.hm "$points"
+    echo "47543 93209 0" >want
+    echo "$(value compared) $(value triangles) $(value outside)" >got
+    same "every point of the Danube is on its mesh" want got
+    true_that "and on its height" "$(value rmse) < 1e-9 && $(value p95) < 1e-9"
+fi
+
+# --- criteria ---
+ok "criteria met: exit 0" quality -c 'rmse<=0.5,red<40%,minangle>=20,valid' wave.hm many.xyz
+quality -c 'rmse<=0.5,red<1,minangle>=80,valid' wave.hm many.xyz >report.txt
+near "a criterion missed: exit 1" $? 1 0
+ok "a line a criterion" sh -c "sed -n '/^Criteria/,\$p' report.txt | cut -c1-6 | tr -d '\n' |
+    grep -qx 'Criter  pass  miss  miss  pass'"
+must_fail "an unknown measure" 2 "no measure is called 'beauty'" quality -c 'beauty>1' wave.hm many.xyz
+must_fail "no bound" 2 "rmse.*needs a bound" quality -c rmse wave.hm many.xyz
+sed 's/^t 1 4 2 3/t 2 4 1 3/' square.hm >clockwise.hm
+quality -c valid clockwise.hm seven.xyz >report.txt
+near "a clockwise triangle is not valid: exit 1" $? 1 0
+ok "and is named" grep -q 'area .* 1  first at' report.txt
+printf '1000 1000 1\n' >far.xyz
+quality -c 'rmse<1' square.hm far.xyz >report.txt 2>err
+near "nothing to compare is not met" $? 1 0
+ok "and said" grep -q 'no measurement with a height lies on the mesh' err
+
+# --- what cannot be done ---
+must_fail "no mesh" 2 "no mesh" quality seven.xyz
+must_fail "no points" 2 "no points" quality square.hm
+must_fail "two meshes" 2 "wave.hm: a second mesh" quality square.hm wave.hm seven.xyz
+head -n 7 square.hm >cut.hm
+must_fail "a truncated mesh" 2 "cut.hm" quality cut.hm seven.xyz
+printf '1 1 1\n2 nan 1\n' >nan.xyz
+must_fail "NaN for a coordinate" 2 "nan.xyz:2:" quality -r left.hm square.hm nan.xyz
+ok "no residuals are left behind" sh -c '! ls left.hm* .left.hm* 2>/dev/null | grep .'
+must_fail "a word" 2 "word.xyz:2:" sh -c "printf '1 1 1\n2 two 1\n' >word.xyz; quality square.hm word.xyz"
+: >empty
+must_fail "an empty file" 2 "empty" quality square.hm empty
+must_fail "a full disk" 2 "space|full" sh -c "quality square.hm seven.xyz >/dev/full"
+must_fail "residuals on a full disk" 2 "space|full" quality -r /dev/full square.hm seven.xyz
+must_fail "residuals nowhere" 2 "no_folder" quality -r no_folder/r.hm square.hm seven.xyz
+must_fail "residuals need a file" 2 "needs a file" quality -r - square.hm seven.xyz
+must_fail "a sample of 200 %" 2 "sample.*200" quality -s 1,200 square.hm seven.xyz
+must_fail "one threshold" 2 "thresholds" quality -t 0.1 square.hm seven.xyz
+must_fail "falling thresholds" 2 "thresholds" quality -t 0.3,0.1 square.hm seven.xyz
+done_testing

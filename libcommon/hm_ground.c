@@ -76,9 +76,10 @@ enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d)
         err = hm_fail_memory(d);
     for (size_t k = 0; !err && k < c.n; k++)
         ground[k] = ground_at(b, c.v[k].x, c.v[k].y);
-    for (int32_t tri = 0; !err && tri < hm_tri_triangles(b->tri); tri++)
-        if (hm_tri_is_solid(b->tri, tri))
-            hm_tri_set_region(b->tri, tri, ground[hm_tri_region(b->tri, tri) - 1]);
+    for (int32_t tri = 0; !err && tri < hm_tri_triangles(b->tri); tri++) {
+        bool solid = hm_tri_is_solid(b->tri, tri); /* the flood reaches ghosts too */
+        hm_tri_set_region(b->tri, tri, solid ? ground[hm_tri_region(b->tri, tri) - 1] : 0);
+    }
     free(ground);
     free(c.v);
     return err;

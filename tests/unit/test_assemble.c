@@ -297,7 +297,8 @@ static void test_lengths(void)
             outside += edge[k].right >= 0 && (length < 4 || length > 10);
         }
         ok(c.left.too_short == c.left.too_short_fixed && c.left.too_long == 0,
-           "no free edge under the minimum, none over the maximum");
+           "no free edge under the minimum, none over the maximum: %d, %d between fixed nodes; %d",
+           (int)c.left.too_short, (int)c.left.too_short_fixed, (int)c.left.too_long);
         ok(outside == c.left.too_short + c.left.too_long, "what is left is what was counted");
         free(edge);
     }
@@ -385,6 +386,7 @@ int main(void)
     test_lines(3, 8);
     test_lines(0, 0);
     test_river(3, 8);
+    test_river(1.25, 3); /* edges of the regular mesh are over the maximum */
     test_river(0, 0);
     test_tangle(2, 5);
     test_tangle(0, 0);

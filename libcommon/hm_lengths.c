@@ -8,7 +8,7 @@
 
 /* Coarsening and refinement agree after two or three turns; the cap is for bounds so near to each
  * other that they never would. */
-enum { MOST_TURNS = 12, FEW = 50 };
+enum { MOST_TURNS = 12, BOLD_TURNS = 2, FEW = 50 };
 
 /* Angle (degrees) below which smoothing must not make a triangle worse. */
 #define GOOD_ANGLE 30.0
@@ -16,6 +16,7 @@ enum { MOST_TURNS = 12, FEW = 50 };
 struct work {
     struct hm_domain *dom;
     const struct hm_lengths_options *o;
+    struct hm_lengths bounds; /* as they count in this turn */
     struct hm_lengths_left *left;
 };
 
@@ -33,7 +34,7 @@ static enum hm_err watch(const struct work *w, const char *what, struct hm_diag 
 static enum hm_err go(struct work *w, round_fn round, const char *what, int64_t *n,
                       struct hm_diag *d)
 {
-    enum hm_err err = round(w->dom, &w->o->bounds, w->o->threads, n, d);
+    enum hm_err err = round(w->dom, &w->bounds, w->o->threads, n, d);
     if (err || *n == 0)
         return err;
     w->left->rounds++;
@@ -76,17 +77,22 @@ static enum hm_err refine(struct work *w, int64_t *n, struct hm_diag *d)
     return err;
 }
 
+/* In the first turns coarsening may make edges over the maximum, which refinement then halves;
+ * later it may not, or they could go on for ever. */
 static enum hm_err take_turns(struct work *w, struct hm_diag *d)
 {
-    int64_t coarser = 1, finer = 1;
-    for (int turn = 0; turn < MOST_TURNS && coarser + finer > 0; turn++) {
+    for (int turn = 0; turn < MOST_TURNS; turn++) {
+        int64_t coarser, finer;
+        w->bounds = w->o->bounds;
+        if (turn < BOLD_TURNS)
+            w->bounds.most = INFINITY;
         enum hm_err err = coarsen(w, &coarser, d);
-        if (!err)
-            err = refine(w, &finer, d);
-        if (err)
+        if (err || (turn > 0 && coarser == 0))
             return err;
-        if (turn > 0 && finer == 0)
-            break;
+        w->bounds = w->o->bounds;
+        err = refine(w, &finer, d);
+        if (err || finer == 0)
+            return err;
     }
     return HM_OK;
 }
@@ -163,7 +169,7 @@ static enum hm_err count_left(const struct work *w, struct hm_diag *d)
 enum hm_err hm_lengths_reach(struct hm_domain *dom, const struct hm_lengths_options *o,
                              struct hm_lengths_left *left, struct hm_diag *d)
 {
-    struct work w = {dom, o, left};
+    struct work w = {.dom = dom, .o = o, .left = left};
     *left = (struct hm_lengths_left){0};
     if (!(o->bounds.least > 0 && o->bounds.most > o->bounds.least))
         return hm_fail(d, HM_EARG, "minimum edge %g m, maximum edge %g m: the maximum must be more",

@@ -1,0 +1,153 @@
+/* Start grids against independent ways to the same heights: location in the triangulation, plain
+ * sums, and brute force. */
+#include "hm_anchor.h"
+#include "hm_cellmean.h"
+#include "hm_gapfill.h"
+#include "hm_gridtin.h"
+#include "hm_terrain.h"
+#include "tap.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static uint32_t seed = 1;
+
+static double uniform(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return (double)(seed >> 8) / (1 << 24);
+}
+
+static void test_anchor(void)
+{
+    struct hm_anchor a, b;
+    const double box[4] = {0.3, 0.7, -0.25, 0.25};
+    hm_anchor_within(&a, 0.1, box, NULL);
+    ok(a.i0 == 3 && a.nx == 5 && a.j0 == -2 && a.ny == 5, "nodes on the border are within");
+    hm_anchor_touching(&b, 0.1, (const double[]){0.34, 0.76, 0.36, 0.36}, NULL);
+    ok(b.i0 == 3 && b.nx == 6 && b.j0 == 4 && b.ny == 1, "cells that reach into the box");
+    ok(hm_anchor_within(&a, 1, (const double[]){0.2, 0.8, 0, 5}, NULL) == HM_EARG, "no node");
+    ok(hm_anchor_within(&a, 1, (const double[]){-1e300, 1e300, 0, 5}, NULL) == HM_EARG, "too many");
+}
+
+/* hm_terrain finds the triangle of each node by location, and interpolates in its own way. */
+static void test_gridtin(double x0, double y0, double gap)
+{
+    enum { N = 3000, SIDE = 61 };
+    static double xyz[3 * N], z[SIDE * SIDE], again[SIDE * SIDE];
+    for (size_t k = 0; k < N; k++) {
+        bool on_lattice = k % 5 == 0;
+        double x = uniform() * 60, y = uniform() * 60;
+        xyz[3 * k] = x0 + (on_lattice ? floor(x) : x);
+        xyz[3 * k + 1] = y0 + (on_lattice ? floor(y) : y);
+        xyz[3 * k + 2] = 10 * uniform();
+    }
+    struct hm_tri *t;
+    double *height;
+    struct hm_terrain *terrain;
+    struct hm_gridtin_count count;
+    struct hm_anchor a = {1, (int64_t)x0, (int64_t)y0, SIDE, SIDE};
+    bool good =
+        !hm_tri_build(&t, xyz, N, 3, 1, NULL) && !hm_gridtin_heights(&height, t, xyz, N, NULL) &&
+        !hm_gridtin(z, &a, t, height, gap, 1, &count, NULL) &&
+        !hm_gridtin(again, &a, t, height, gap, 2, &count, NULL) &&
+        !hm_terrain_new(&terrain, NULL) && !hm_terrain_add_tri(terrain, t, height, gap, NULL);
+    ok(good && !memcmp(z, again, sizeof z), "one thread as two");
+    double worst = 0;
+    size_t missing = 0, differ = 0;
+    int32_t hint = 0;
+    for (size_t k = 0; good && k < SIDE * SIDE; k++) {
+        double want =
+            hm_terrain_z(terrain, x0 + (double)(k % SIDE), y0 + (double)(k / SIDE), &hint);
+        missing += isnan(z[k]) != 0;
+        differ += isnan(z[k]) != isnan(want);
+        if (!isnan(z[k]) && !isnan(want))
+            worst = fmax(worst, fabs(z[k] - want));
+    }
+    near(worst, 0, 1e-9, "heights as by location");
+    ok(differ == 0, "the same nodes missing (%zu, %zu differ)", missing, differ);
+    ok(count.gap + count.outside == missing, "missing nodes: %zu in gaps, %zu outside", count.gap,
+       count.outside);
+    hm_terrain_free(terrain);
+    hm_tri_free(t);
+    free(height);
+}
+
+static void test_shared_places(void)
+{
+    const double xyz[] = {0, 0, 1, 4, 0, 1, 0, 4, 1, 4, 4, 1, 0, 0, 2, 0, 0, 6, 4, 4, 3};
+    struct hm_tri *t;
+    double *height;
+    hm_tri_build(&t, xyz, 7, 3, 1, NULL);
+    hm_gridtin_heights(&height, t, xyz, 7, NULL);
+    ok(height[hm_tri_of_input(t, 0)] == 3 && height[hm_tri_of_input(t, 3)] == 2 &&
+           height[hm_tri_of_input(t, 1)] == 1,
+       "points at one place count by their mean");
+    hm_tri_free(t);
+    free(height);
+}
+
+static void test_cellmean(void)
+{
+    enum { N = 20000, SIDE = 300 };
+    static double sum[SIDE * SIDE], count[SIDE * SIDE], z[SIDE * SIDE];
+    struct hm_cellmean *c;
+    struct hm_anchor a = {0.5, -150, -170, SIDE, SIDE};
+    hm_cellmean_new(&c, 0.5, NULL);
+    for (size_t k = 0; k < N; k++) {
+        double x = 150 * uniform() - 75, y = 150 * uniform() - 85, h = uniform();
+        size_t node =
+            (size_t)(floor(y * 2 + 0.5) + 170) * SIDE + (size_t)(floor(x * 2 + 0.5) + 150);
+        if (floor(x * 2 + 0.5) < 150 && floor(y * 2 + 0.5) < 130) {
+            sum[node] += h;
+            count[node]++;
+        }
+        hm_cellmean_add(c, x, y, h, NULL);
+    }
+    hm_cellmean_get(c, &a, z);
+    bool same = true;
+    for (size_t k = 0; k < SIDE * SIDE; k++)
+        same = same && (count[k] > 0 ? z[k] == sum[k] / count[k] : isnan(z[k]));
+    ok(same, "cell means over many tiles, with negative numbers");
+    ok(hm_cellmean_add(c, 1e300, 0, 1, NULL) == HM_EGEOM, "a point too far off is refused");
+    hm_cellmean_free(c);
+}
+
+/* Every empty node that is filled lies on the plane; those in a wide gap are not. */
+static void test_gapfill(void)
+{
+    enum { NX = 90, NY = 70 };
+    static double z[NX * NY];
+    size_t wrong = 0, filled = 0, far_in = 0;
+    for (size_t k = 0; k < NX * NY; k++) {
+        double i = (double)(k % NX), j = (double)(k / NX);
+        bool hole = hypot(i - 45, j - 35) < 12 || uniform() < 0.8;
+        z[k] = hole ? NAN : 3 * i - 2 * j;
+    }
+    hm_gapfill(z, NX, NY, 8, 1, NULL);
+    for (size_t k = 0; k < NX * NY; k++) {
+        double i = (double)(k % NX), j = (double)(k / NX);
+        far_in += !isnan(z[k]) && hypot(i - 45, j - 35) < 6;
+        filled += !isnan(z[k]);
+        wrong += !isnan(z[k]) && fabs(z[k] - 3 * i + 2 * j) > 1e-12;
+    }
+    ok(wrong == 0, "filled nodes lie on the plane");
+    ok(filled > NX * NY * 8 / 10, "small gaps are filled");
+    ok(far_in == 0, "the wide one is not");
+    double few[] = {1, NAN, 3, NAN, NAN, NAN};
+    ok(!hm_gapfill(few, 3, 2, 8, 1, NULL) && isnan(few[1]), "two nodes make no triangle");
+    double line[] = {1, NAN, 3, NAN, 5, NAN};
+    ok(!hm_gapfill(line, 6, 1, 8, 1, NULL) && isnan(line[1]), "nor do those on one line");
+}
+
+int main(void)
+{
+    test_anchor();
+    test_gridtin(0, 0, 3);
+    test_gridtin(545000, 5972000, 2.2);
+    test_gridtin(-30, -30, 1e9);
+    test_shared_places();
+    test_cellmean();
+    test_gapfill();
+    return done();
+}

@@ -1,6 +1,7 @@
 #include "hm_border.h"
 
 #include "hm_plane.h"
+#include "hm_pred.h"
 
 #include <stdlib.h>
 
@@ -53,6 +54,22 @@ bool hm_border_is_near(const struct hm_border *b, const double *p, double factor
     return false;
 }
 
+/* Where on an edge that the way from p to q meets, 0 .. 1: the place that is first, or last, on the
+ * way. Exactly 0 or 1 at a node, also when edge and way run in one line. */
+static double place_on(const double *from, const double *to, const double *p, const double *q,
+                       bool last)
+{
+    const double *near = last ? q : p;
+    if (hm_pred_orient(p, q, from) != 0 || hm_pred_orient(p, q, to) != 0)
+        return hm_plane_meeting(from, to, p, q);
+    double length = hypot(to[0] - from[0], to[1] - from[1]);
+    double before = hypot(near[0] - from[0], near[1] - from[1]);
+    double behind = hypot(near[0] - to[0], near[1] - to[1]);
+    if (before < length && behind < length)
+        return before / length;
+    return before < behind ? 0 : 1;
+}
+
 bool hm_border_meeting(const struct hm_border *b, const double *p, const double *q, bool last,
                        size_t *edge, double *at)
 {
@@ -71,7 +88,7 @@ bool hm_border_meeting(const struct hm_border *b, const double *p, const double 
         found = true;
         best = t;
         *edge = i;
-        *at = hm_plane_meeting(from, to, p, q);
+        *at = place_on(from, to, p, q, last);
     }
     return found;
 }

@@ -16,7 +16,7 @@ enum { MARK = 1, OUTSIDE = 1 }; /* the mark of all constraints; the region beyon
 /* All that belongs to one gap. */
 struct gap {
     struct hm_seam_sides s;
-    struct hm_border outline, rest;
+    struct hm_border rest;
     struct hm_mesh kept; /* the elements that stay, on the lower mesh's nodes */
     double *size;
     bool *used; /* nodes of kept elements */
@@ -63,22 +63,20 @@ static enum hm_err measure(struct gap *g, const struct hm_mesh *lower, const boo
 }
 
 static enum hm_err prepare(struct gap *g, const struct hm_border *higher,
-                           const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                           const struct hm_locate *in_higher, const struct hm_border *lower,
                            const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d)
 {
-    enum hm_err err = measure(g, lower, gone, d);
-    if (!err)
-        err = hm_border_build(&g->outline, lower, d);
+    enum hm_err err = measure(g, lower->mesh, gone, d);
     if (!err)
         err = hm_border_build(&g->rest, &g->kept, d);
     if (err)
         return err;
     g->s = (struct hm_seam_sides){.higher = higher,
                                   .in_higher = in_higher,
-                                  .lower = lower,
+                                  .lower = lower->mesh,
                                   .in_lower = in_lower,
                                   .gone = gone,
-                                  .outline = &g->outline,
+                                  .outline = lower,
                                   .rest = &g->rest,
                                   .size = g->size,
                                   .kept = g->used};
@@ -152,8 +150,8 @@ static bool is_free(const struct gap *g, const struct hm_boxtree *sides, int32_t
 static bool *outline_nodes(const struct gap *g)
 {
     bool *outer = hm_alloc0(g->s.lower->nnodes, sizeof *outer);
-    for (size_t i = 0; outer && i < g->outline.n; i++)
-        outer[g->outline.loops.node[i]] = true;
+    for (size_t i = 0; outer && i < g->s.outline->n; i++)
+        outer[g->s.outline->loops.node[i]] = true;
     return outer;
 }
 
@@ -322,7 +320,7 @@ static enum hm_err take_gaps(const struct gap *g, struct hm_seam *seam, struct h
 }
 
 enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
-                         const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                         const struct hm_locate *in_higher, const struct hm_border *lower,
                          const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d)
 {
     *seam = (struct hm_seam){0};
@@ -335,7 +333,6 @@ enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
     seam->widened = g.sides.widened;
     hm_tri_free(g.tri);
     hm_outline_free(&g.sides);
-    hm_border_free(&g.outline);
     hm_border_free(&g.rest);
     free(g.kept.elem);
     free(g.size);

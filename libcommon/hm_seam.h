@@ -22,9 +22,10 @@ struct hm_seam {
     int64_t widened; /* mouths of the lower mesh, widened to nodes beside them */
 };
 
-/* Fill the gap that elements `gone` of the lower mesh leave. Of each mesh also its location. */
+/* Fill the gap that elements `gone` of the lower mesh leave. Each mesh is given by its border, with
+ * the location in it. */
 enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
-                         const struct hm_locate *in_higher, const struct hm_mesh *lower,
+                         const struct hm_locate *in_higher, const struct hm_border *lower,
                          const struct hm_locate *in_lower, const bool *gone, struct hm_diag *d);
 void hm_seam_free(struct hm_seam *seam);
 

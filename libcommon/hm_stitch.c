@@ -1,32 +1,41 @@
 #include "hm_stitch.h"
 
 #include "hm_cut.h"
+#include "hm_pred.h"
 #include "hm_seam.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Has the mesh an edge of its boundary, node for node, in common with what is there? */
-static enum hm_err shares_edge(const struct hm_join *j, const struct hm_mesh *m, bool *shares,
-                               struct hm_diag *d)
+static bool same_place(const double *a, const double *b)
 {
-    struct hm_mesh_loops loops;
-    enum hm_err err = hm_mesh_boundary(m, &loops, d);
-    if (err)
-        return err;
-    *shares = false;
-    for (size_t k = 0; k < loops.nloops; k++) {
-        const struct hm_node *last = &m->node[loops.node[loops.start[k + 1] - 1]];
-        bool before = hm_places_get(&j->places, last->x, last->y) >= 0;
-        for (size_t i = loops.start[k]; i < loops.start[k + 1]; i++) {
-            const struct hm_node *node = &m->node[loops.node[i]];
-            bool here = hm_places_get(&j->places, node->x, node->y) >= 0;
-            *shares |= here && before;
-            before = here;
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+/* Does p lie on the segment a–b, exactly, and not at an end? */
+static bool is_between(const double *p, const double *a, const double *b)
+{
+    const struct hm_box at = hm_box_of(p, p), box = hm_box_of(a, b);
+    return !same_place(p, a) && !same_place(p, b) && hm_box_meets(&at, &box) &&
+           hm_pred_orient(a, b, p) == 0;
+}
+
+/* Do two borders fit where they touch, node for node, and have they an edge in common? */
+static bool fit(const struct hm_border *x, const struct hm_border *y)
+{
+    bool common = false;
+    for (size_t i = 0; i < y->n; i++) {
+        const double *a = hm_border_from(y, i), *b = hm_border_to(y, i);
+        struct hm_boxquery q = hm_boxtree_find(x->tree, hm_box_of(a, b));
+        for (int32_t k; (k = hm_boxtree_next(&q)) >= 0;) {
+            const double *c = hm_border_from(x, (size_t)k), *d = hm_border_to(x, (size_t)k);
+            if (is_between(a, c, d) || is_between(b, c, d) || is_between(c, a, b) ||
+                is_between(d, a, b))
+                return false;
+            common |= same_place(a, d) && same_place(b, c);
         }
     }
-    hm_mesh_loops_free(&loops);
-    return HM_OK;
+    return common;
 }
 
 /* Number of a node of the lower mesh that the gap uses: that of the element kept, or new. */
@@ -85,7 +94,7 @@ static enum hm_err sew(struct hm_join *j, const struct hm_mesh *lower, const str
 
 /* The two meshes as the cut and the seam need them. */
 struct pair {
-    struct hm_border higher;
+    struct hm_border higher, lower;
     struct hm_locate *in_higher, *in_lower;
 };
 
@@ -93,6 +102,8 @@ static enum hm_err open_pair(struct pair *p, const struct hm_mesh *higher,
                              const struct hm_mesh *lower, struct hm_diag *d)
 {
     enum hm_err err = hm_border_build(&p->higher, higher, d);
+    if (!err)
+        err = hm_border_build(&p->lower, lower, d);
     if (!err)
         err = hm_locate_build(&p->in_higher, higher, d);
     if (!err)
@@ -103,6 +114,7 @@ static enum hm_err open_pair(struct pair *p, const struct hm_mesh *higher,
 static void close_pair(struct pair *p)
 {
     hm_border_free(&p->higher);
+    hm_border_free(&p->lower);
     hm_locate_free(p->in_higher);
     hm_locate_free(p->in_lower);
 }
@@ -114,19 +126,17 @@ enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, do
     struct pair p = {0};
     struct hm_cut cut = {0};
     struct hm_seam seam = {0};
-    bool beside = false;
     *s = (struct hm_stitched){0};
     enum hm_err err = open_pair(&p, &j->mesh, lower, d);
     if (!err)
         err = hm_cut_mark(&cut, &p.higher, p.in_higher, lower, p.in_lower, buffer, d);
-    if (!err && cut.overlapping == 0)
-        err = shares_edge(j, lower, &beside, d);
+    bool beside = !err && cut.overlapping == 0 && fit(&p.higher, &p.lower);
     bool whole = beside || !cut.meets;
     if (!err && !whole) {
         s->overlapping = cut.overlapping;
         s->near = cut.near;
         s->loose = cut.loose;
-        err = hm_seam_fill(&seam, &p.higher, p.in_higher, lower, p.in_lower, cut.gone, d);
+        err = hm_seam_fill(&seam, &p.higher, p.in_higher, &p.lower, p.in_lower, cut.gone, d);
     }
     if (!err)
         err = sew(j, lower, whole ? NULL : &cut, &seam, terrain, s, d);

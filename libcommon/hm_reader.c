@@ -266,14 +266,18 @@ enum hm_err hm_reader_row(struct hm_reader *r, double *row, struct hm_diag *d)
     return check_end(r, err, d);
 }
 
-/* A line closes by its attribute, or when it ends where it began; the last vertex is dropped then.
- */
-static void close_line(const struct hm_reader *r, struct hm_line *line)
+static bool meets_first(const struct hm_line *line)
 {
-    const double *last = r->xyz + r->xyz_n - 3;
-    bool meets = line->n > 1 && last[0] == r->xyz[0] && last[1] == r->xyz[1];
-    line->closed = hm_attr_flag(line->attrs, "closed") || (meets && line->n > 3);
-    if (line->closed && meets)
+    const double *last = line->xyz + 3 * (line->n - 1);
+    return line->n > 1 && last[0] == line->xyz[0] && last[1] == line->xyz[1];
+}
+
+/* A line closes by its attribute, or when it ends where it began; vertices at its end that repeat
+ * the first are dropped then. */
+static void close_line(struct hm_line *line)
+{
+    line->closed = hm_attr_flag(line->attrs, "closed") || (line->n > 3 && meets_first(line));
+    while (line->closed && meets_first(line))
         line->n--;
 }
 
@@ -295,7 +299,7 @@ enum hm_err hm_reader_line(struct hm_reader *r, struct hm_line *line, struct hm_
     line->attrs = r->attrs;
     line->xyz = r->xyz;
     line->n = r->xyz_n / 3;
-    close_line(r, line);
+    close_line(line);
     return check_end(r, HM_OK, d);
 }
 

@@ -30,6 +30,8 @@ static void test_gmt(void)
           LINES ">\n1 2 3\n4 5 6\n>\n7 8 9\n#end 2\n");
     reads("closed by its last vertex", ">\n0 0 1\n1 0 1\n1 1 1\n0 0 1\n",
           LINES "> closed=1\n0 0 1\n1 0 1\n1 1 1\n#end 1\n");
+    reads("closed twice", ">\n0 0 1\n1 0 1\n1 1 1\n0 0 1\n0 0 1\n",
+          LINES "> closed=1\n0 0 1\n1 0 1\n1 1 1\n#end 1\n");
     reads("closed by its attribute", "> hole=1 closed=1\n0 0 1\n1 0 1\n1 1 1\n",
           LINES "> hole=1 closed=1\n0 0 1\n1 0 1\n1 1 1\n#end 1\n");
     reads("there and back is not closed", ">\n0 0 1\n1 0 1\n0 0 1\n",

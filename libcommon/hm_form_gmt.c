@@ -219,6 +219,8 @@ static enum hm_err read_vertex(struct hm_reader *r, const char *s, const char *e
     if (g->columns == 0) {
         g->comma = memchr(s, ',', (size_t)(end - s)) != NULL;
         g->columns = hm_row_count(s, end, g->comma);
+        if (g->columns > HM_MAX_FIELDS)
+            return hm_input_fail(&r->in, HM_EFORMAT, d, "more than %d columns", HM_MAX_FIELDS);
         if (!hm_grow(&g->v, &g->v_cap, g->columns + 3, sizeof *g->v))
             return hm_fail_memory(d);
     }

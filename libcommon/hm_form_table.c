@@ -163,6 +163,8 @@ static enum hm_err start(struct hm_reader *r, struct table *t, struct hm_header 
         return err;
     if (t->columns < 2)
         return hm_input_fail(&r->in, HM_EFORMAT, d, "expected at least the numbers x y, got 1");
+    if (t->columns > HM_MAX_FIELDS)
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "more than %d columns", HM_MAX_FIELDS);
     if (names->nfields > 0 && names->nfields != t->columns)
         return hm_input_fail(&r->in, HM_EFORMAT, d, "%zu names above %zu columns", names->nfields,
                              t->columns);

@@ -128,6 +128,8 @@ static enum hm_err read_fields(struct hm_input *in, struct hm_header *h, struct 
     bool good = h->nfields >= 3 && !strcmp(h->fields[0], "x") && !strcmp(h->fields[1], "y") &&
                 (h->kind == HM_GRID || !strcmp(h->fields[2], "z")) &&
                 (h->kind != HM_LINES || h->nfields == 3);
+    if (h->nfields > HM_MAX_FIELDS)
+        return hm_input_fail(in, HM_EFORMAT, d, "more than %d fields", HM_MAX_FIELDS);
     if (!good)
         return hm_input_fail(in, HM_EFORMAT, d, "the fields of %s %s", hm_kind_name(h->kind),
                              h->kind == HM_LINES  ? "are x y z"
@@ -248,6 +250,8 @@ static enum hm_err put(struct hm_output *out, const char *text, struct hm_diag *
 static enum hm_err put_key(struct hm_output *out, const char *key, const char *value,
                            struct hm_diag *d)
 {
+    if (!hm_row_is_text(value, value + strlen(value)))
+        return hm_fail(d, HM_EARG, "control characters in the value of #%s", key);
     enum hm_err err = put(out, "#", d);
     if (!err)
         err = put(out, key, d);

@@ -9,9 +9,9 @@
 
 enum hm_encoding { HM_TEXT, HM_F64LE, HM_F32LE };
 
-/* Most rows of a lattice, and most values (nodes times bands) of a row, so that a false header
- * cannot ask for a row beyond all memory. */
-enum { HM_MAX_SIDE = 10000000 };
+/* Most rows of a lattice, most values (nodes times bands) of a row, and most columns, so that a
+ * false header cannot ask for a row beyond all memory. */
+enum { HM_MAX_SIDE = 10000000, HM_MAX_FIELDS = 1000 };
 
 /* Read from `#hm` to `#data`. On failure *h is empty. */
 enum hm_err hm_headio_read(struct hm_input *in, struct hm_header *h, enum hm_encoding *encoding,

@@ -5,7 +5,7 @@
 
 #include <dirent.h>
 
-enum { ROUNDS = 400, LONGEST = 8192 };
+enum { ROUNDS = 150, LONGEST = 8192 };
 
 /* splitmix64: the same damage on every machine */
 static uint64_t next(uint64_t *state)

@@ -45,7 +45,7 @@ static enum hm_err go(struct work *w, round_fn round, const char *what, int64_t 
  * nothing left; *n: changes. */
 static enum hm_err coarsen(struct work *w, int64_t *n, struct hm_diag *d)
 {
-    int64_t near, triangles, edges;
+    int64_t near, triangles = 0, edges = 0;
     enum hm_err err = HM_OK;
     *n = 0;
     do {
@@ -65,7 +65,7 @@ static enum hm_err coarsen(struct work *w, int64_t *n, struct hm_diag *d)
 
 static enum hm_err refine(struct work *w, int64_t *n, struct hm_diag *d)
 {
-    int64_t triangles, edges;
+    int64_t triangles = 0, edges = 0;
     enum hm_err err = HM_OK;
     *n = 0;
     do {

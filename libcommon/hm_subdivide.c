@@ -53,12 +53,13 @@ enum hm_err hm_subdivide_triangles(struct hm_domain *dom, const struct hm_length
         int32_t node[3];
         hm_domain_corners(dom, tri, node);
         struct hm_node c = centre(dom, node, 3);
+        const double at[2] = {c.x, c.y};
         bool good = true;
         for (int k = 0; k < 3 && good; k++)
             good = side2(dom, 3 * tri + k) > most2 &&
                    hm_node_distance2(&dom->node[node[k]], &c) >= least2 &&
-                   !crowds(dom, 3 * tri + k, &c.x, l->clearance) &&
-                   hm_pred_orient(xy_of(dom, node[k]), xy_of(dom, node[(k + 1) % 3]), &c.x) > 0;
+                   !crowds(dom, 3 * tri + k, at, l->clearance) &&
+                   hm_pred_orient(xy_of(dom, node[k]), xy_of(dom, node[(k + 1) % 3]), at) > 0;
         if (!good)
             continue;
         if (!hm_grow(&added, &cap, nadded + 1, sizeof c))
@@ -155,15 +156,16 @@ static bool may_halve(const struct hm_domain *dom, const struct hm_lengths *l, i
 {
     const struct hm_tri *t = dom->tri;
     int32_t apex = hm_tri_apex(t, e), next = hm_tri_next(e), prev = hm_tri_prev(e);
+    const double at[2] = {c->x, c->y};
     if (apex == HM_TRI_INFINITY)
         return true;
-    if (!keeps_left(dom, next, hm_tri_dest(t, e), &c->x) ||
-        !keeps_left(dom, prev, hm_tri_org(t, e), &c->x))
+    if (!keeps_left(dom, next, hm_tri_dest(t, e), at) ||
+        !keeps_left(dom, prev, hm_tri_org(t, e), at))
         return false;
     if (!is_free)
         return true;
     return hm_node_distance2(&dom->node[dom->node_of[apex]], c) >= l->least * l->least &&
-           !crowds(dom, next, &c->x, l->clearance) && !crowds(dom, prev, &c->x, l->clearance);
+           !crowds(dom, next, at, l->clearance) && !crowds(dom, prev, at, l->clearance);
 }
 
 /* Put c on an edge. A fixed edge becomes two. */

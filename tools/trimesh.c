@@ -38,7 +38,8 @@ static const struct hm_option options[] = {
      .given = &cmd.min_given},
     {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
      "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
-    {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth, "passes of Laplace smoothing (default 5)", .given = NULL},
+    {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth, "passes of Laplace smoothing (default 5)",
+     .given = NULL},
     {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
      "heights of new nodes: terrain (default) or mean of their neighbours",
      .choices = "terrain|mean"},
@@ -180,12 +181,12 @@ static enum hm_err write_step(void *arg, const struct hm_domain *dom, const char
                               struct hm_diag *d)
 {
     struct steps *s = arg;
-    char path[4096], name[64];
-    size_t k = 0;
-    for (; what[k] && k < sizeof name - 1; k++)
-        name[k] = what[k] == ' ' ? '-' : what[k];
-    name[k] = 0;
-    snprintf(path, sizeof path, "%s/%03d-%s.hm", cmd.steps, ++s->n, name);
+    char path[4096];
+    int dir = snprintf(path, sizeof path, "%s/%03d-", cmd.steps, ++s->n);
+    snprintf(path + dir, sizeof path - (size_t)dir, "%s.hm", what);
+    for (char *c = path + dir; *c; c++)
+        if (*c == ' ')
+            *c = '-';
     struct hm_mesh mesh = {0};
     struct hm_writer *w = NULL;
     enum hm_err err = hm_header_copy(&mesh.header, s->header, d);
@@ -249,6 +250,8 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
         .smooth = cmd.smooth,
         .threads = hm_cli_threads(cli)};
     if (cmd.steps) {
+        if (strlen(cmd.steps) > 4000)
+            hm_cli_die(cli, "%s: name too long", cmd.steps);
         if (mkdir(cmd.steps, 0777) && errno != EEXIST)
             hm_cli_die(cli, "%s: %s", cmd.steps, strerror(errno));
         o.watch = write_step;

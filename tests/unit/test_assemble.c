@@ -185,8 +185,9 @@ static void check_seam(const struct trial *c)
         for (size_t i = l.start[k]; i < l.start[k + 1]; i++, edges++) {
             size_t j = i + 1 < l.start[k + 1] ? i + 1 : l.start[k];
             const struct hm_node *p = &c->regular.node[l.node[i]];
-            int32_t a = node_at(&c->mesh, &p->x);
-            int32_t b = node_at(&c->mesh, &c->regular.node[l.node[j]].x);
+            const struct hm_node *q = &c->regular.node[l.node[j]];
+            int32_t a = node_at(&c->mesh, (double[2]){p->x, p->y});
+            int32_t b = node_at(&c->mesh, (double[2]){q->x, q->y});
             bool same = a >= 0 && c->mesh.node[a].z == p->z && c->mesh.node[a].owner == p->owner &&
                         (c->mesh.node[a].flags & HM_NODE_FIXED);
             for (size_t e = 0; e < c->mesh.nelems && same; e++)

@@ -10,11 +10,13 @@ struct tile {
     int64_t ti, tj; /* numbers of its cells divided by SIDE */
     double sum[SIDE * SIDE];
     uint64_t count[SIDE * SIDE];
+    double *place; /* sums of the distances from the nodes in x and y, in cells; or NULL */
 };
 
 /* Tiles are found by an open hash table of their numbers. */
 struct hm_cellmean {
     double spacing;
+    bool places;
     struct tile **tile;
     size_t ntiles, cap;
     int64_t *slot; /* tile number or EMPTY */
@@ -22,13 +24,14 @@ struct hm_cellmean {
     struct tile *last;
 };
 
-enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, struct hm_diag *d)
+enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, bool places, struct hm_diag *d)
 {
     enum { FIRST_SLOTS = 64 };
     *c = hm_alloc0(1, sizeof **c);
     if (!*c)
         return hm_fail_memory(d);
     (*c)->spacing = spacing;
+    (*c)->places = places;
     (*c)->slot = hm_alloc(FIRST_SLOTS, sizeof *(*c)->slot);
     if (!(*c)->slot) {
         hm_cellmean_free(*c);
@@ -45,8 +48,10 @@ void hm_cellmean_free(struct hm_cellmean *c)
 {
     if (!c)
         return;
-    for (size_t k = 0; k < c->ntiles; k++)
+    for (size_t k = 0; k < c->ntiles; k++) {
+        free(c->tile[k]->place);
         free(c->tile[k]);
+    }
     free(c->tile);
     free(c->slot);
     free(c);
@@ -78,6 +83,23 @@ static bool more_slots(struct hm_cellmean *c)
     return true;
 }
 
+static struct tile *new_tile(const struct hm_cellmean *c, int64_t ti, int64_t tj)
+{
+    struct tile *t = hm_alloc0(1, sizeof *t);
+    if (!t)
+        return NULL;
+    t->ti = ti;
+    t->tj = tj;
+    if (c->places) {
+        t->place = hm_alloc0(2 * SIDE * SIDE, sizeof *t->place);
+        if (!t->place) {
+            free(t);
+            return NULL;
+        }
+    }
+    return t;
+}
+
 static struct tile *get_tile(struct hm_cellmean *c, int64_t ti, int64_t tj)
 {
     if (c->last && c->last->ti == ti && c->last->tj == tj)
@@ -91,11 +113,9 @@ static struct tile *get_tile(struct hm_cellmean *c, int64_t ti, int64_t tj)
                 return NULL;
             k = find_slot(c, ti, tj);
         }
-        struct tile *t = hm_alloc0(1, sizeof *t);
+        struct tile *t = new_tile(c, ti, tj);
         if (!t)
             return NULL;
-        t->ti = ti;
-        t->tj = tj;
         c->tile[c->ntiles] = t;
         c->slot[k] = (int64_t)c->ntiles++;
     }
@@ -122,6 +142,10 @@ enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z,
     size_t cell = (size_t)((j - tj * SIDE) * SIDE + (i - ti * SIDE));
     t->sum[cell] += z;
     t->count[cell]++;
+    if (t->place) {
+        t->place[2 * cell] += x / c->spacing - u;
+        t->place[2 * cell + 1] += y / c->spacing - v;
+    }
     return HM_OK;
 }
 
@@ -149,4 +173,32 @@ void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, dou
                     z[(size_t)j * a->nx + (size_t)i] = t->sum[cell] / (double)t->count[cell];
             }
     }
+}
+
+enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anchor *a, double **xyz,
+                               size_t *n, struct hm_diag *d)
+{
+    size_t cap = 0;
+    *xyz = NULL;
+    *n = 0;
+    for (size_t k = 0; k < c->ntiles; k++) {
+        const struct tile *t = c->tile[k];
+        for (int64_t cell = 0; cell < SIDE * SIDE; cell++) {
+            int64_t i = t->ti * SIDE + cell % SIDE, j = t->tj * SIDE + cell / SIDE;
+            double count = (double)t->count[cell];
+            if (!t->count[cell] || i < a->i0 || i >= a->i0 + (int64_t)a->nx || j < a->j0 ||
+                j >= a->j0 + (int64_t)a->ny)
+                continue;
+            if (!hm_grow(xyz, &cap, 3 * (*n + 1), sizeof **xyz)) {
+                free(*xyz);
+                *xyz = NULL;
+                return hm_fail_memory(d);
+            }
+            double *p = *xyz + 3 * (*n)++;
+            p[0] = ((double)i + t->place[2 * cell] / count) * c->spacing;
+            p[1] = ((double)j + t->place[2 * cell + 1] / count) * c->spacing;
+            p[2] = t->sum[cell] / count;
+        }
+    }
+    return HM_OK;
 }

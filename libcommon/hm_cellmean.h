@@ -11,7 +11,8 @@
 
 struct hm_cellmean;
 
-enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, struct hm_diag *d);
+/* With `places` the mean places are kept, too. */
+enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, bool places, struct hm_diag *d);
 void hm_cellmean_free(struct hm_cellmean *c);
 
 /* Add a point with a height. HM_EGEOM when it is so far off that cells have no numbers there. */
@@ -19,5 +20,10 @@ enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z,
 
 /* Means of the nodes of `a`, row after row: z has a->nx * a->ny numbers, NaN where no point was. */
 void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z);
+
+/* The mean points themselves, x, y, z, of the cells of `a` that hold any, tile by tile as the tiles
+ * were met. *xyz is malloc'd. Needs `places`. */
+enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anchor *a, double **xyz,
+                               size_t *n, struct hm_diag *d);
 
 #endif

@@ -134,7 +134,7 @@ static struct survey start_survey(struct hm_cli *cli)
     if (cmd.classes)
         parse_classes(cli, &s);
     if (cmd.method == MEAN)
-        hm_cli_check(cli, hm_cellmean_new(&s.cells, cmd.spacing, &d), &d);
+        hm_cli_check(cli, hm_cellmean_new(&s.cells, cmd.spacing, cmd.fit == FIT_POINTS, &d), &d);
     return s;
 }
 
@@ -153,12 +153,12 @@ static enum hm_err add_point(struct survey *s, const double *p, struct hm_diag *
     s->box[1] = fmax(s->box[1], p[0]);
     s->box[2] = fmin(s->box[2], p[1]);
     s->box[3] = fmax(s->box[3], p[1]);
-    if (cmd.method == TIN || cmd.fit == FIT_POINTS) {
-        if (!hm_grow(&s->xyz, &s->cap, 3 * (s->n + 1), sizeof *s->xyz))
-            return hm_fail_memory(d);
-        memcpy(s->xyz + 3 * s->n++, p, 3 * sizeof *p);
-    }
-    return cmd.method == MEAN ? hm_cellmean_add(s->cells, p[0], p[1], p[2], d) : HM_OK;
+    if (cmd.method == MEAN)
+        return hm_cellmean_add(s->cells, p[0], p[1], p[2], d);
+    if (!hm_grow(&s->xyz, &s->cap, 3 * (s->n + 1), sizeof *s->xyz))
+        return hm_fail_memory(d);
+    memcpy(s->xyz + 3 * s->n++, p, 3 * sizeof *p);
+    return HM_OK;
 }
 
 static bool is_wanted(const struct survey *s, double class)
@@ -242,6 +242,8 @@ static void start_by_means(struct hm_cli *cli, struct survey *s, double *z)
 {
     struct hm_diag d = {0};
     hm_cellmean_get(s->cells, &s->nodes, z);
+    if (cmd.fit == FIT_POINTS)
+        hm_cli_check(cli, hm_cellmean_points(s->cells, &s->nodes, &s->xyz, &s->n, &d), &d);
     hm_cellmean_free(s->cells);
     s->cells = NULL;
     hm_cli_check(

@@ -105,8 +105,9 @@ static void test_cellmean(void)
     enum { N = 20000, SIDE = 300 };
     static double sum[SIDE * SIDE], count[SIDE * SIDE], z[SIDE * SIDE];
     struct hm_cellmean *c;
+    double sum_x = 0;
     struct hm_anchor a = {0.5, -150, -170, SIDE, SIDE};
-    hm_cellmean_new(&c, 0.5, NULL);
+    hm_cellmean_new(&c, 0.5, true, NULL);
     for (size_t k = 0; k < N; k++) {
         double x = 150 * uniform() - 75, y = 150 * uniform() - 85, h = uniform();
         size_t node =
@@ -114,6 +115,7 @@ static void test_cellmean(void)
         if (floor(x * 2 + 0.5) < 150 && floor(y * 2 + 0.5) < 130) {
             sum[node] += h;
             count[node]++;
+            sum_x += x;
         }
         hm_cellmean_add(c, x, y, h, NULL);
     }
@@ -122,6 +124,20 @@ static void test_cellmean(void)
     for (size_t k = 0; k < SIDE * SIDE; k++)
         same = same && (count[k] > 0 ? z[k] == sum[k] / count[k] : isnan(z[k]));
     ok(same, "cell means over many tiles, with negative numbers");
+    double *xyz, whole = 0;
+    size_t n, inside = 0, cells = 0;
+    hm_cellmean_points(c, &a, &xyz, &n, NULL);
+    for (size_t k = 0; k < n; k++) {
+        double i = floor(xyz[3 * k] * 2 + 0.5), j = floor(xyz[3 * k + 1] * 2 + 0.5);
+        size_t node = (size_t)(j + 170) * SIDE + (size_t)(i + 150);
+        inside += node < SIDE * SIDE && z[node] == xyz[3 * k + 2];
+        whole += xyz[3 * k] * count[node];
+    }
+    for (size_t k = 0; k < SIDE * SIDE; k++)
+        cells += count[k] > 0;
+    ok(n == cells && inside == n, "mean points lie in their cells");
+    near(whole, sum_x, 1e-7, "and have the points' centre of gravity");
+    free(xyz);
     ok(hm_cellmean_add(c, 1e300, 0, 1, NULL) == HM_EGEOM, "a point too far off is refused");
     hm_cellmean_free(c);
 }

@@ -255,6 +255,38 @@ static void test_river(double least, double most)
     stop(&c);
 }
 
+/* An outline that crosses the regular mesh between its nodes is bent to the nearest ones. */
+static void test_crossing_outline(void)
+{
+    static const double half[] = {10, 10, 101.7, 10, 101.7, 90, 10, 90};
+    struct trial c;
+    start(&c, 3000);
+    lattice(&c.regular, 40, 160, 24, 30, 40, 3, true);
+    for (size_t i = 0; i < c.regular.nnodes; i++)
+        c.regular.node[i].z = plane(c.regular.node[i].x, c.regular.node[i].y);
+    add_line(&c, "boundary=1 closed=1", half, 4);
+    if (run(&c, 3, 8))
+        check_mesh(&c, 91.7 * 80 - 60 * 10 - 1.7 * (20 / 2.0 + 10 + 50 / 2.0));
+    stop(&c);
+}
+
+/* Where two outlines touch along an edge there is no border. */
+static void test_neighbours(void)
+{
+    static const double west[] = {10, 10, 100.1, 10, 100.1, 90, 10, 90};
+    static const double east[] = {100.1, 10, 190, 10, 190, 90, 100.1, 90};
+    struct trial c;
+    start(&c, 3000);
+    add_line(&c, "boundary=1 closed=1", west, 4);
+    add_line(&c, "boundary=1 closed=1", east, 4);
+    if (run(&c, 0, 0)) {
+        check_mesh(&c, 180 * 80);
+        ok(!is_line_kept(&c.mesh, (double[]){100.1, 10, 100.1, 90}, 2, false),
+           "two outlines with a common edge make one domain");
+    }
+    stop(&c);
+}
+
 static void test_areas(void)
 {
     static const double island[] = {40, 30, 80, 30, 80, 60, 40, 60};
@@ -392,6 +424,8 @@ int main(void)
     test_tangle(2, 5);
     test_tangle(0, 0);
     test_areas();
+    test_crossing_outline();
+    test_neighbours();
     test_lengths();
     test_refusals();
     return done();

@@ -93,8 +93,10 @@ static void weighted_row(const struct stencil *s, double *gx, double *gy)
     if (quick)
         quick_row(s, gx, gy);
     for (size_t i = 0; i < s->nx; i++) {
-        bool done = quick && i > 0 && i + 1 < s->nx && !isnan(gx[i] + gy[i]);
-        if (!done)
+        bool border = !quick || i == 0 || i + 1 == s->nx;
+        if (!border && !isnan(gx[i] + gy[i] + s->z[1][i]))
+            continue;
+        if (!isnan(s->z[1][i]))
             careful(s, i, &gx[i], &gy[i]);
         if (isnan(s->z[1][i]) || isnan(gx[i]) || isnan(gy[i]))
             gx[i] = gy[i] = NAN;

@@ -163,12 +163,12 @@ static enum hm_err link_cell(struct hm_contour *c, int64_t i, const uint8_t stat
     }
     bool saddle = state[0] == state[2] && state[1] == state[3];
     double sum = c->slope[0][i] + c->slope[0][i + 1] + c->slope[1][i] + c->slope[1][i + 1];
-    int partner =
-        sum / 4 >= c->rule.limit ? 1 : 3; /* in a saddle: cut the next corner off, or this */
+    /* in a saddle a piece from edge k cuts off the corner behind it, or the one before */
+    int turn = sum / 4 >= c->rule.limit ? 1 : 3;
     for (int from = 0; from < 4; from++) {
         if (!leaves(state, from))
             continue;
-        int to = (from + partner) & 3;
+        int to = (from + turn) & 3;
         for (int k = 0; k < 4 && !saddle; k++)
             if (enters(state, k))
                 to = k;

@@ -177,6 +177,36 @@ enum hm_err hm_cut_mark(struct hm_cut *cut, const struct hm_border *higher,
     return err;
 }
 
+/* Distance from (x, y) to the nearest corner of an element. */
+static double corner_distance(const struct hm_mesh *m, const struct hm_elem *e, double x, double y)
+{
+    double least = INFINITY;
+    for (int k = 0; k < hm_elem_corners(e); k++)
+        least = fmin(least, hypot(m->node[e->node[k]].x - x, m->node[e->node[k]].y - y));
+    return least;
+}
+
+enum hm_err hm_cut_more(struct hm_cut *cut, const struct hm_mesh *lower, double x, double y,
+                        int edges, struct hm_diag *d)
+{
+    double least = INFINITY, edge = 0;
+    for (size_t i = 0; i < lower->nelems; i++) {
+        if (cut->gone[i] || corner_distance(lower, &lower->elem[i], x, y) >= least)
+            continue;
+        least = corner_distance(lower, &lower->elem[i], x, y);
+        edge = hm_elem_mean_edge(lower, &lower->elem[i]);
+    }
+    if (least == INFINITY)
+        return hm_fail_at(d, HM_EGEOM, x, y, "the gap between the meshes cannot be filled");
+    for (size_t i = 0; i < lower->nelems; i++)
+        if (!cut->gone[i] &&
+            corner_distance(lower, &lower->elem[i], x, y) <= least + edges * edge) {
+            cut->gone[i] = true;
+            cut->loose++;
+        }
+    return trim(lower, cut, d);
+}
+
 void hm_cut_free(struct hm_cut *cut)
 {
     free(cut->gone);

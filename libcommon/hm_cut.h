@@ -27,6 +27,11 @@ struct hm_cut {
 enum hm_err hm_cut_mark(struct hm_cut *cut, const struct hm_border *higher,
                         const struct hm_locate *in_higher, const struct hm_mesh *lower,
                         const struct hm_locate *in_lower, double buffer, struct hm_diag *d);
+/* Where the gap cannot be filled at (x, y), cut more: all elements with a node not further from
+ * there than the nearest one of those that stay, and `edges` of its element's edges. They count as
+ * loose. HM_EGEOM when nothing is left to cut. */
+enum hm_err hm_cut_more(struct hm_cut *cut, const struct hm_mesh *lower, double x, double y,
+                        int edges, struct hm_diag *d);
 void hm_cut_free(struct hm_cut *cut);
 
 #endif

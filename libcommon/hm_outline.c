@@ -154,17 +154,23 @@ static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struc
 }
 
 /* The segments of one chain, from the node where it leaves the higher mesh, if it does, to the one
- * where it ends there. */
+ * where it ends there. A chain that cannot be joined to the higher mesh is left out, and with it
+ * the ground behind it, when nothing of the lower mesh stays that would then be cut off. */
 static enum hm_err add_chain(struct hm_outline *o, const struct hm_chains *c,
                              const struct hm_chain *chain, const struct hm_seam_sides *s,
                              struct hm_diag *d)
 {
     size_t first = 0, last = chain->count - 1;
+    struct hm_diag failure = {0};
     enum hm_err err = HM_OK;
     if (chain->from >= 0)
-        err = hm_chain_attach(c, chain, false, s, chain->count, &first, d);
+        err = hm_chain_attach(c, chain, false, s, chain->count, &first, &failure);
     if (!err && chain->to >= 0)
-        err = hm_chain_attach(c, chain, true, s, chain->count - first, &last, d);
+        err = hm_chain_attach(c, chain, true, s, chain->count - first, &last, &failure);
+    if (err && s->rest->n == 0)
+        return HM_OK;
+    if (err && d && !d->err)
+        *d = failure;
     const int32_t *node = c->node + chain->first;
     if (!err && chain->from >= 0)
         err = add_segment(o, c->crossing[chain->from].attach, ~node[first], d);

@@ -119,6 +119,27 @@ static void close_pair(struct pair *p)
     hm_locate_free(p->in_lower);
 }
 
+/* Fill the gap. Where that fails at a place, since an element that stays is in the way, cut more
+ * there and try again. */
+static enum hm_err fill(struct hm_seam *seam, const struct pair *p, struct hm_cut *cut,
+                        struct hm_diag *d)
+{
+    enum { MOST_TRIES = 12 };
+    for (int i = 0;; i++) {
+        struct hm_diag failure = {0};
+        enum hm_err err = hm_seam_fill(seam, &p->higher, p->in_higher, &p->lower, p->in_lower,
+                                       cut->gone, &failure);
+        if (!err || !failure.has_place || i == MOST_TRIES) {
+            if (err && d && !d->err)
+                *d = failure;
+            return err;
+        }
+        err = hm_cut_more(cut, p->lower.mesh, failure.x, failure.y, i, d);
+        if (err)
+            return err;
+    }
+}
+
 enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, double buffer,
                               const struct hm_terrain *terrain, struct hm_stitched *s,
                               struct hm_diag *d)
@@ -133,10 +154,10 @@ enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, do
     bool beside = !err && cut.overlapping == 0 && fit(&p.higher, &p.lower);
     bool whole = beside || !cut.meets;
     if (!err && !whole) {
+        err = fill(&seam, &p, &cut, d);
         s->overlapping = cut.overlapping;
         s->near = cut.near;
         s->loose = cut.loose;
-        err = hm_seam_fill(&seam, &p.higher, p.in_higher, &p.lower, p.in_lower, cut.gone, d);
     }
     if (!err)
         err = sew(j, lower, whole ? NULL : &cut, &seam, terrain, s, d);

@@ -121,6 +121,8 @@ for angle in 30 50 75 100 125 150; do
     channel turned "$@" 23 7 3.1 >turned.hm
     stitch main.hm turned.hm >out.hm 2>/dev/null
     joined "turned by $angle degrees" out.hm main.hm turned.hm
+    stitch -w 0 main.hm turned.hm >out.hm 2>/dev/null
+    joined "turned by $angle degrees, without buffer" out.hm main.hm turned.hm
 done
 
 # --- more than two ---

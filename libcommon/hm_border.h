@@ -22,7 +22,7 @@ void hm_border_free(struct hm_border *b);
 
 static inline const double *hm_border_from(const struct hm_border *b, size_t i)
 {
-    return &b->mesh->node[b->loops.node[i]].x;
+    return hm_mesh_xy(b->mesh, b->loops.node[i]);
 }
 static inline const double *hm_border_to(const struct hm_border *b, size_t i)
 {

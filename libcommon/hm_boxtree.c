@@ -40,7 +40,7 @@ static int by_value(const void *pa, const void *pb)
 
 static uint32_t lattice(double value, double lo, double hi)
 {
-    double part = (value - lo) / (hi - lo); /* NaN where all is in one place or beyond 1e308 apart */
+    double part = (value - lo) / (hi - lo); /* NaN when all is in one place or too far apart */
     return part > 0 ? (uint32_t)(part * 65535) : 0;
 }
 

@@ -48,13 +48,13 @@ static enum hm_err find_pairs(const struct hm_mesh *there, const struct hm_mesh_
     if (!box)
         return hm_fail_memory(d);
     for (size_t i = 0; i < nodes; i++)
-        box[i] = hm_box_of(&there->node[at->node[i]].x, &there->node[at->node[i]].x);
+        box[i] = hm_box_of(hm_mesh_xy(there, at->node[i]), hm_mesh_xy(there, at->node[i]));
     enum hm_err err = hm_boxtree_build(&tree, box, nodes, d);
     for (size_t i = 0; !err && i < mine->start[mine->nloops]; i++) {
-        const double *p = &m->node[mine->node[i]].x;
+        const double *p = hm_mesh_xy(m, mine->node[i]);
         struct hm_boxquery q = hm_boxtree_find(tree, hm_box_grown(hm_box_of(p, p), tolerance));
         for (int32_t k; !err && (k = hm_boxtree_next(&q)) >= 0;) {
-            const double *o = &there->node[at->node[k]].x;
+            const double *o = hm_mesh_xy(there, at->node[k]);
             double apart = hypot(o[0] - p[0], o[1] - p[1]);
             if (apart > tolerance)
                 continue;

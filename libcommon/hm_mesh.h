@@ -29,6 +29,14 @@ struct hm_mesh {
     struct hm_elem *elem;
     size_t nelems, elem_cap;
 };
+/* The place of a node: x and y side by side. */
+static inline const double *hm_mesh_xy(const struct hm_mesh *m, int32_t node)
+{
+    _Static_assert(offsetof(struct hm_node, x) == 0 &&
+                       offsetof(struct hm_node, y) == sizeof(double),
+                   "x and y lie side by side at the beginning of a node");
+    return (const double *)&m->node[node];
+}
 static inline int hm_elem_corners(const struct hm_elem *e)
 {
     return e->node[3] < 0 ? 3 : 4;

@@ -254,16 +254,16 @@ static enum hm_err check_hanging(struct check *k, struct hm_diag *d)
     for (size_t i = 0; !err && i < k->nedges; i++)
         if (k->edge[i].right < 0) {
             open[n] = k->edge[i];
-            box[n++] =
-                hm_box_grown(hm_box_of(&m->node[k->edge[i].a].x, &m->node[k->edge[i].b].x), reach);
+            box[n++] = hm_box_grown(
+                hm_box_of(hm_mesh_xy(m, k->edge[i].a), hm_mesh_xy(m, k->edge[i].b)), reach);
         }
     if (!err)
         err = hm_boxtree_build(&tree, box, n, d);
     for (size_t i = 0; !err && i < n; i++) {
-        const double *p = &m->node[open[i].a].x;
+        const double *p = hm_mesh_xy(m, open[i].a);
         struct hm_boxquery q = hm_boxtree_find(tree, hm_box_of(p, p));
         for (int32_t j; (j = hm_boxtree_next(&q)) >= 0;)
-            if (inside_edge(&m->node[open[j].a].x, &m->node[open[j].b].x, p, reach)) {
+            if (inside_edge(hm_mesh_xy(m, open[j].a), hm_mesh_xy(m, open[j].b), p, reach)) {
                 fault_at_node(k, HM_FAULT_HANGING, open[i].a);
                 break;
             }

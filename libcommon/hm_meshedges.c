@@ -134,12 +134,12 @@ static bool met_before(const double *at, const double *a, const double *c, const
 static size_t next_edge(const struct border *b, const struct hm_mesh *m, int32_t from, int32_t at)
 {
     size_t best = SIZE_MAX;
-    const double *here = &m->node[at].x, *back = &m->node[from].x;
+    const double *here = hm_mesh_xy(m, at), *back = hm_mesh_xy(m, from);
     for (size_t i = b->first[at]; i < b->first[at + 1]; i++) {
         if (b->to[i] < 0)
             continue;
         if (best == SIZE_MAX ||
-            met_before(here, back, &m->node[b->to[i]].x, &m->node[b->to[best]].x))
+            met_before(here, back, hm_mesh_xy(m, b->to[i]), hm_mesh_xy(m, b->to[best])))
             best = i;
     }
     return best;

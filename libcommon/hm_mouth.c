@@ -159,14 +159,14 @@ static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t
                      double notch, const struct hm_seam_sides *s)
 {
     int32_t last = node[(ptrdiff_t)j * step];
-    const double *p = &s->lower->node[last].x, *r = &s->higher->mesh->node[x->attach].x;
-    const double *beyond = &s->higher->mesh->node[x->beyond].x;
+    const double *p = hm_mesh_xy(s->lower, last), *r = hm_mesh_xy(s->higher->mesh, x->attach);
+    const double *beyond = hm_mesh_xy(s->higher->mesh, x->beyond);
     if (is_hidden(s->higher, p, r) || is_hidden(s->rest, p, r))
         return INT_MAX;
     int against = 0;
     bool out = crosses(s->outline, p, r);
     for (size_t k = 0; k < j; k++) { /* nodes left out must lie outside the new outline */
-        int turn = hm_pred_orient(p, r, &s->lower->node[node[(ptrdiff_t)k * step]].x);
+        int turn = hm_pred_orient(p, r, hm_mesh_xy(s->lower, node[(ptrdiff_t)k * step]));
         out |= x->enter ? turn > 0 : turn < 0;
     }
     if (out)
@@ -187,7 +187,7 @@ enum hm_err hm_chain_attach(const struct hm_chains *c, const struct hm_chain *ch
     const double *a = hm_border_from(s->higher, x->edge), *b = hm_border_to(s->higher, x->edge);
     const double place[2] = {a[0] + x->at * (b[0] - a[0]), a[1] + x->at * (b[1] - a[1])};
     double junction =
-        hm_plane_angle(place, &s->higher->mesh->node[x->beyond].x, &s->lower->node[*node].x);
+        hm_plane_angle(place, hm_mesh_xy(s->higher->mesh, x->beyond), hm_mesh_xy(s->lower, *node));
     double notch = fmin(notch_degrees, notch_part * junction);
     int least = INT_MAX;
     for (size_t j = 0; j < limit && j < MOST_TRIMMED && least > 0; j++) {

@@ -40,7 +40,7 @@ static enum hm_err add_crossing(struct walk *w, int32_t p, int32_t q, bool enter
     if (!hm_grow(&c->crossing, &c->crossing_cap, c->ncrossings + 1, sizeof *c->crossing))
         return hm_fail_memory(w->d);
     struct hm_crossing *x = &c->crossing[c->ncrossings];
-    const double *from = &w->s->lower->node[p].x, *to = &w->s->lower->node[q].x;
+    const double *from = hm_mesh_xy(w->s->lower, p), *to = hm_mesh_xy(w->s->lower, q);
     *x = (struct hm_crossing){.enter = enter};
     if (!hm_border_meeting(w->s->higher, from, to, !enter, &x->edge, &x->at))
         return hm_fail_at(w->d, HM_EGEOM, from[0], from[1], "the outline cannot be followed");

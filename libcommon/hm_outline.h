@@ -42,7 +42,7 @@ struct hm_outline {
 
 static inline const double *hm_seam_xy(const struct hm_seam_sides *s, int32_t node)
 {
-    return node >= 0 ? &s->higher->mesh->node[node].x : &s->lower->node[~node].x;
+    return node >= 0 ? hm_mesh_xy(s->higher->mesh, node) : hm_mesh_xy(s->lower, ~node);
 }
 
 /* HM_EGEOM where no way from the outline to the higher mesh can be found. */

@@ -131,7 +131,7 @@ static enum hm_err add_border(struct gap *g, const struct hm_border *b, bool low
 /* Is a node of the lower mesh, with its elements gone, good for the inside of the gap? */
 static bool is_free(const struct gap *g, const struct hm_boxtree *sides, int32_t node)
 {
-    const double *p = &g->s.lower->node[node].x, size = g->size[node];
+    const double *p = hm_mesh_xy(g->s.lower, node), size = g->size[node];
     if (g->used[node] || size == 0 || g->slot[1][node] >= 0 ||
         hm_locate_element(g->s.in_higher, p[0], p[1]) >= 0 ||
         hm_border_is_near(g->s.higher, p, HM_SEAM_CLEAR, size))

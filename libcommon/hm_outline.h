@@ -12,7 +12,7 @@
 #include "hm_border.h"
 #include "hm_locate.h"
 
-/* The two meshes. Nodes of both are told apart by hm_seam_lower: number k of the lower mesh is ~k.
+/* The two meshes. Where nodes of both are listed, number k of the lower mesh is written ~k.
  */
 struct hm_seam_sides {
     const struct hm_border *higher;

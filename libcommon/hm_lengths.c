@@ -8,7 +8,7 @@
 
 /* Coarsening and refinement agree after two or three turns; the cap is for bounds so near to each
  * other that they never would. */
-enum { MOST_TURNS = 12, BOLD_TURNS = 2, FEW = 50 };
+enum { MOST_TURNS = 12, BOLD_TURNS = 2, FEW = 50 /* of so many nodes one */ };
 
 /* Angle (degrees) below which smoothing must not make a triangle worse. */
 #define GOOD_ANGLE 30.0
@@ -63,13 +63,18 @@ static enum hm_err coarsen(struct work *w, int64_t *n, struct hm_diag *d)
     return err;
 }
 
+/* The same the other way. Once few triangles are too large as a whole, halving edges does for them
+ * too. */
 static enum hm_err refine(struct work *w, int64_t *n, struct hm_diag *d)
 {
-    int64_t triangles = 0, edges = 0;
+    int64_t triangles = INT64_MAX, edges = 0;
     enum hm_err err = HM_OK;
     *n = 0;
     do {
-        err = go(w, hm_subdivide_triangles, "refine triangles", &triangles, d);
+        if (triangles > (int64_t)w->dom->nnodes / FEW)
+            err = go(w, hm_subdivide_triangles, "refine triangles", &triangles, d);
+        else
+            triangles = 0;
         if (!err)
             err = go(w, hm_subdivide_edges, "refine edges", &edges, d);
         *n += err ? 0 : triangles + edges;

@@ -37,7 +37,7 @@ FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
 
-.PHONY: all help deps demo check check-long check-san fuzz bench lint install clean FORCE
+.PHONY: all help deps demo pictures check check-long check-san fuzz bench lint install clean FORCE
 .DELETE_ON_ERROR:
 
 all: $(BIN)
@@ -53,6 +53,7 @@ help:
 #: make check-long the longer ones;  make check-san: make check under ASan and UBSan
 #: make fuzz       fuzz targets (SECONDS=600 each; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
+#: make pictures the picture of the README, from the demo
 #: make lint       format, static checks, man pages
 #: make deps       install missing Debian packages (root, or sudo without a password)
 #: make install    DESTDIR= PREFIX=/usr/local PROGPREFIX=
@@ -90,6 +91,10 @@ DEMO_LINES := $(if $(filter command,$(origin LINES)),$(LINES))
 demo: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN)
 	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(DEMO_LINES)' D='$(D)' tests/demo
+
+# The pictures of the README, from the demo.
+pictures: demo
+	$(Q)$(B)/bin/hmdraw -s 1000 -l 16 -o man/hybrid.png demo/dem.hm demo/hybrid.hm
 
 check: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)

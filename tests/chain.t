@@ -14,7 +14,7 @@ for file in dem slope breaklines regular river flood hybrid; do
     case $file in
     dem) command="bsgrid -d 2 survey.xyz" ;;
     slope) command="slope dem.hm" ;;
-    breaklines) command="breaklines -s 8 -l 30 -r 6 slope.hm" ;;
+    breaklines) command="breaklines -s 13 -l 30 -r 6 slope.hm" ;;
     regular) command="bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz" ;;
     river) command="stitch -c regular.hm survey.xyz" ;;
     flood) command="trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt river.hm" ;;
@@ -36,7 +36,7 @@ hmconv -t binary survey.hm | hmconv -t text >back.hm
 same "text, binary, text: points" survey.hm back.hm
 
 # A binary pipe carries the same numbers as files of text.
-bsgrid -b -d 2 survey.xyz | slope -b | breaklines -s 8 -l 30 -r 6 >piped.hm 2>/dev/null
+bsgrid -b -d 2 survey.xyz | slope -b | breaklines -s 13 -l 30 -r 6 >piped.hm 2>/dev/null
 same "breaklines through binary pipes" breaklines.hm piped.hm
 
 # The hybrid mesh covers its domain once: the elements' areas add up to the area of the outline.

@@ -32,7 +32,7 @@ LIB_OBJ   := $(patsubst libcommon/%.c,$(B)/obj/%.o,$(wildcard libcommon/*.c))
 BIN       := $(PROGRAMS:%=$(B)/bin/%)
 GEN       := $(patsubst tests/gen/%.c,$(B)/test/%,$(wildcard tests/gen/*.c))
 UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.c))
-BENCH     := $(patsubst tests/bench/%.c,$(B)/bench/%,$(wildcard tests/bench/*.c))
+BENCH     := $(patsubst tests/bench/bench_%.cc,%,$(wildcard tests/bench/bench_*.cc))
 FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
@@ -106,6 +106,20 @@ check-long: deps-quiet
 
 check-san:
 	$(Q)$(MAKE) --no-print-directory check SANITIZE=address,undefined
+
+# Measured against the peers of tests/deps bench, which are C++ libraries: g++ -O3 for them, the library
+# as it is. bench-NAME BENCH_ARGS=… passes arguments on.
+$(B)/bench/%: tests/bench/%.cc $(LIB)
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  LD      $@")
+	$(Q)$(CXX) -std=c++17 -O3 -DNDEBUG -Ilibcommon -MMD -MP -o $@ $< $(LIB) -lgmp -lmpfr -pthread -lm
+
+bench: $(BENCH:%=bench-%)
+bench-delaunay: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
+$(BENCH:%=bench-%): bench-%: $(B)/bench/bench_%
+	$(Q)tests/deps bench quiet
+	$(Q)$< $(BENCH_ARGS)
+.PHONY: $(BENCH:%=bench-%)
 
 # Each target with libFuzzer and the sanitizers for SECONDS; what it finds stays in build/fuzz, the seeds
 # in tests/fuzz/corpus.

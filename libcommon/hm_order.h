@@ -1,5 +1,5 @@
 /* hm_order: points sorted along a space-filling curve, so that neighbours in the plane are
- * neighbours in memory. Layer 1.
+ * neighbours in memory. Layer 1, on threads.
  *
  * A frame lays 2^16 x 2^16 square cells over a rectangle of points; the key of a cell is its Morton
  * number (the bits of row and column interlaced, y above x). Cells are monotone in the coordinates:
@@ -23,14 +23,14 @@ struct hm_order_item {
 struct hm_order_frame hm_order_frame(const double *xy, size_t n, size_t stride);
 uint32_t hm_order_key(const struct hm_order_frame *f, const double *p);
 
-/* Sort n < 2^32 points: by key, points of one cell by their keys in a frame of their own and so on,
- * equal points by index. item[0 .. n) is the result; the keys in it are those of the first frame.
- * HM_ENOMEM. */
-enum hm_err hm_order_points(const double *xy, size_t n, size_t stride, struct hm_order_item *item,
-                            struct hm_diag *d);
+/* How finely to sort: to the cell, points of a cell by index; or on to the last bit, points of a
+ * cell by their keys in a frame of their own and so on, and only equal points by index. */
+enum hm_order_how { HM_ORDER_COARSE, HM_ORDER_FINE };
 
-/* Sort by key alone, without parting the points of a cell. */
-enum hm_err hm_order_coarse(const double *xy, size_t n, size_t stride, struct hm_order_item *item,
-                            struct hm_diag *d);
+/* Sort n < 2^32 points. item[0 .. n) is the result, with the keys of the frame of all; other[0 ..
+ * n) is scratch. The same for any number of threads. HM_ENOMEM. */
+enum hm_err hm_order_sort(const double *xy, size_t n, size_t stride, enum hm_order_how how,
+                          int threads, struct hm_order_item *item, struct hm_order_item *other,
+                          struct hm_diag *d);
 
 #endif

@@ -19,7 +19,7 @@ static enum hm_err check_edge(const struct hm_tri *t, int32_t e, struct hm_diag 
         return bad(t, e, d, "its twin is another edge");
     if (hm_tri_marks_of(t, e) != hm_tri_marks_of(t, twin))
         return bad(t, e, d, "its two sides are marked differently");
-    if (a >= 0 && t->edge[a] == HM_TRI_NONE)
+    if (a >= 0 && !hm_tri_is_used(t, a))
         return bad(t, e, d, "it starts at a removed vertex");
     return HM_OK;
 }
@@ -49,9 +49,9 @@ static enum hm_err check_vertices(const struct hm_tri *t, struct hm_diag *d)
 {
     int64_t used = 0, slots = 0;
     for (int32_t v = 0; v < t->vertices; v++) {
-        int32_t e = t->edge[v];
-        if (e == HM_TRI_NONE)
+        if (!hm_tri_is_used(t, v))
             continue;
+        int32_t e = hm_tri_edge_of(t, v);
         used++;
         if (e < 0 || e >= 3 * t->triangles || t->half[e].org != v)
             return hm_fail(d, HM_EGEOM, "the edge of vertex %d starts elsewhere", (int)v);

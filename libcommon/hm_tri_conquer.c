@@ -336,12 +336,12 @@ static struct part merge(const struct work *w, struct part a, struct part b, int
     return (struct part){.single = HM_TRI_NONE, .low = low, .high = high};
 }
 
-/* A range whose points share a cell: give it keys of its own, as hm_order_points did. */
+/* A range whose points share a cell: give it keys of its own, as hm_order_sort did. */
 static void part_cell(const struct work *w, int32_t lo, int32_t hi)
 {
     struct hm_order_frame frame = hm_order_frame(at(w, lo), (size_t)(hi - lo), 2);
-    for (int32_t i = lo; i < hi; i++)
-        w->key[i] = hm_order_key(&frame, at(w, i));
+    for (int32_t v = lo; v < hi; v++)
+        w->key[v] = hm_order_key(&frame, at(w, v));
 }
 
 /* Where the keys in [lo, hi) first part, and along which axis. */
@@ -376,10 +376,55 @@ static struct part conquer(const struct work *w, int32_t lo, int32_t hi)
     return merge(w, a, b, axis, 2 * mid - 2);
 }
 
+/* The first few cuts make a tree, node k above 2k+1 and 2k+2; its leaves are done side by side. */
+enum { LEVELS = 7, NODES = (1 << LEVELS) - 1, SMALL = 4096 };
+
+struct node {
+    int32_t lo, hi, mid; /* mid 0: a leaf */
+    int axis;
+    struct part part;
+};
+
+struct tree {
+    struct work work;
+    struct node node[NODES];
+    int leaf[NODES], leaves;
+};
+
+static void plant(struct tree *tree, int k, int32_t lo, int32_t hi)
+{
+    struct node *node = &tree->node[k];
+    *node = (struct node){.lo = lo, .hi = hi};
+    if (2 * k + 2 < NODES && hi - lo > SMALL) {
+        node->mid = find_cut(&tree->work, lo, hi, &node->axis);
+        plant(tree, 2 * k + 1, lo, node->mid);
+        plant(tree, 2 * k + 2, node->mid, hi);
+    } else {
+        tree->leaf[tree->leaves++] = k;
+    }
+}
+
+static void do_leaf(void *pointer, size_t leaf)
+{
+    struct tree *tree = pointer;
+    struct node *node = &tree->node[tree->leaf[leaf]];
+    node->part = conquer(&tree->work, node->lo, node->hi);
+}
+
+static struct part gather(struct tree *tree, int k)
+{
+    struct node *node = &tree->node[k];
+    if (node->mid == 0)
+        return node->part;
+    struct part a = gather(tree, 2 * k + 1), b = gather(tree, 2 * k + 2);
+    return merge(&tree->work, a, b, node->axis, 2 * node->mid - 2);
+}
+
 int32_t hm_tri_conquer(struct hm_tri_half *half, const double *xy, int32_t n, uint32_t *key,
                        int threads)
 {
-    (void)threads;
-    struct work w = {.half = half, .xy = xy, .key = key};
-    return conquer(&w, 0, n).low;
+    struct tree tree = {.work = {.half = half, .xy = xy, .key = key}};
+    plant(&tree, 0, 0, n);
+    hm_thread_for(threads, (size_t)tree.leaves, do_leaf, &tree);
+    return gather(&tree, 0).low;
 }

@@ -253,7 +253,9 @@ enum hm_err hm_tri_constrain(struct hm_tri *t, const struct hm_tri_segment *s, s
 {
     struct hm_tri_mends unasked = {0};
     struct constrain c = {.t = t, .mends = mends ? mends : &unasked, .d = d};
-    enum hm_err err = hm_tri_need_marks(t, d);
+    enum hm_err err = hm_tri_need_edges(t, d);
+    if (!err)
+        err = hm_tri_need_marks(t, d);
     for (size_t i = 0; !err && i < n; i++) {
         c.mends->zero_length += s[i].a == s[i].b;
         err = push(&c, (struct task){s[i].a, s[i].b, s[i].marks, 0});

@@ -99,6 +99,15 @@ static void put_in(struct hm_tri *t, const struct place *at, int32_t v)
         hm_tri_split_triangle(t, at->tri, v);
 }
 
+/* For one vertex more. */
+static enum hm_err make_room(struct hm_tri *t, struct hm_diag *d)
+{
+    enum hm_err err = hm_tri_need_edges(t, d);
+    if (!err)
+        err = hm_tri_need_triangles(t, 2, d);
+    return err ? err : hm_tri_need_vertices(t, 1, d);
+}
+
 enum hm_err hm_tri_insert(struct hm_tri *t, double x, double y, int32_t hint, int32_t *v,
                           struct hm_diag *d)
 {
@@ -109,9 +118,7 @@ enum hm_err hm_tri_insert(struct hm_tri *t, double x, double y, int32_t hint, in
     *v = at.vertex;
     if (at.vertex != HM_TRI_NONE)
         return HM_OK;
-    enum hm_err err = hm_tri_need_triangles(t, 2, d);
-    if (!err)
-        err = hm_tri_need_vertices(t, 1, d);
+    enum hm_err err = make_room(t, d);
     if (err)
         return err;
     *v = hm_tri_take_vertex(t, x, y);
@@ -156,9 +163,7 @@ enum hm_err hm_tri_split(struct hm_tri *t, int32_t e, double x, double y, int32_
     const double p[2] = {x, y};
     if (!isfinite(x) || !isfinite(y) || !hm_tri_can_split(t, e, p))
         return hm_fail_at(d, HM_EGEOM, x, y, "an edge cannot be split here");
-    enum hm_err err = hm_tri_need_triangles(t, 2, d);
-    if (!err)
-        err = hm_tri_need_vertices(t, 1, d);
+    enum hm_err err = make_room(t, d);
     if (err)
         return err;
     *v = hm_tri_take_vertex(t, x, y);
@@ -200,9 +205,12 @@ static enum hm_err take_star(struct hm_tri *t, int32_t v, struct hm_diag *d)
 
 enum hm_err hm_tri_remove(struct hm_tri *t, int32_t v, struct hm_diag *d)
 {
+    enum hm_err err = hm_tri_need_edges(t, d);
+    if (err)
+        return err;
     if (v < 0 || v >= t->vertices || !is_loose(t, v))
         return hm_fail(d, HM_EARG, "vertex %d is on the hull, on a constraint or removed", (int)v);
-    enum hm_err err = take_star(t, v, d);
+    err = take_star(t, v, d);
     if (err)
         return err;
     t->left.n--; /* the last link is the base */
@@ -277,9 +285,12 @@ static bool is_free_place(const struct hm_tri *t, int32_t v, const double *p)
 enum hm_err hm_tri_move(struct hm_tri *t, int32_t v, double x, double y, struct hm_diag *d)
 {
     const double p[2] = {x, y};
-    double *now = t->xy + 2 * (size_t)v;
+    enum hm_err err = hm_tri_need_edges(t, d);
+    if (err)
+        return err;
     if (v < 0 || v >= t->vertices || !isfinite(x) || !isfinite(y) || !is_loose(t, v))
         return hm_fail(d, HM_EARG, "vertex %d cannot be moved", (int)v);
+    double *now = t->xy + 2 * (size_t)v;
     if (star_holds(t, v, p)) {
         now[0] = x;
         now[1] = y;
@@ -287,7 +298,7 @@ enum hm_err hm_tri_move(struct hm_tri *t, int32_t v, double x, double y, struct 
     }
     if (!is_free_place(t, v, p))
         return hm_fail_at(d, HM_EARG, x, y, "vertex %d cannot be moved here", (int)v);
-    enum hm_err err = hm_tri_remove(t, v, d);
+    err = hm_tri_remove(t, v, d);
     if (err)
         return err;
     now[0] = x; /* the two triangles given back make room for it */

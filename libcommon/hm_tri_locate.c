@@ -55,8 +55,8 @@ static int32_t jump(const struct hm_tri *t, const double *p)
     int32_t n = t->vertices, samples = (int32_t)cbrt(n) + 1, nearest = HM_TRI_NONE;
     double least = INFINITY;
     for (int32_t i = 0; i < samples; i++) {
-        int32_t v = (int32_t)((int64_t)n * i / samples);
-        while (v < n && t->edge[v] == HM_TRI_NONE)
+        int32_t v = (int32_t)((int64_t)(n - 1) * i / samples);
+        while (v < n && !hm_tri_is_used(t, v))
             v++;
         if (v == n)
             break; /* never the first time: not all vertices can be removed */
@@ -65,7 +65,18 @@ static int32_t jump(const struct hm_tri *t, const double *p)
             nearest = v;
         }
     }
-    return t->edge[nearest] / 3;
+    return t->edge ? t->edge[nearest] / 3 : 2 * nearest;
+}
+
+/* As built, triangle 2v or one near it is at vertex v, give or take the last two. */
+int32_t hm_tri_edge_of(const struct hm_tri *t, int32_t v)
+{
+    if (t->edge)
+        return t->edge[v];
+    int32_t e = 3 * hm_tri_find(t, hm_tri_at(t, v), v < t->vertices - 1 ? 2 * v : 2 * v - 2);
+    while (t->half[e].org != v)
+        e++;
+    return e;
 }
 
 int32_t hm_tri_find(const struct hm_tri *t, const double *p, int32_t hint)
@@ -91,7 +102,7 @@ bool hm_tri_is_between(const double *a, const double *b, const double *c)
 int32_t hm_tri_aim(const struct hm_tri *t, int32_t a, const double *p)
 {
     const double *from = hm_tri_at(t, a);
-    int32_t first = t->edge[a], e = first;
+    int32_t first = hm_tri_edge_of(t, a), e = first;
     do {
         int32_t x = hm_tri_dest_of(t, e), y = hm_tri_apex_of(t, e);
         if (x != HM_TRI_INFINITY) {
@@ -144,10 +155,10 @@ enum hm_err hm_tri_locate_all(const struct hm_tri *t, const double *xy, size_t n
 {
     if (n > UINT32_MAX)
         return hm_fail(d, HM_EARG, "more than 2^32 points to locate at once");
-    struct hm_order_item *item = hm_alloc(n, sizeof *item);
+    struct hm_order_item *item = hm_alloc(n, 2 * sizeof *item);
     if (!item)
         return hm_fail_memory(d);
-    enum hm_err err = hm_order_coarse(xy, n, stride, item, d);
+    enum hm_err err = hm_order_sort(xy, n, stride, HM_ORDER_COARSE, threads, item, item + n, d);
     struct queries q = {.t = t, .xy = xy, .n = n, .stride = stride, .item = item, .tri = tri};
     if (!err)
         hm_thread_for(threads, (n + CHUNK - 1) / CHUNK, locate_chunk, &q);

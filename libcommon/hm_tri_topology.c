@@ -27,7 +27,7 @@ int32_t hm_tri_vertices(const struct hm_tri *t)
 
 bool hm_tri_is_used(const struct hm_tri *t, int32_t v)
 {
-    return t->edge[v] != HM_TRI_NONE;
+    return !t->edge || t->edge[v] != HM_TRI_NONE;
 }
 
 const double *hm_tri_xy(const struct hm_tri *t, int32_t v)
@@ -82,12 +82,12 @@ int32_t hm_tri_twin(const struct hm_tri *t, int32_t e)
 
 int32_t hm_tri_edge_from(const struct hm_tri *t, int32_t v)
 {
-    return t->edge[v];
+    return hm_tri_edge_of(t, v);
 }
 
 int32_t hm_tri_edge_between(const struct hm_tri *t, int32_t a, int32_t b)
 {
-    int32_t first = t->edge[a], e = first;
+    int32_t first = hm_tri_edge_of(t, a), e = first;
     if (first == HM_TRI_NONE)
         return HM_TRI_NONE;
     do {
@@ -148,6 +148,19 @@ enum hm_err hm_tri_flood(struct hm_tri *t, int32_t tri, int32_t stop, int32_t re
         }
     }
     free(seen);
+    return HM_OK;
+}
+
+enum hm_err hm_tri_need_edges(struct hm_tri *t, struct hm_diag *d)
+{
+    if (t->edge)
+        return HM_OK;
+    t->edge = hm_alloc(t->cap_vertices, sizeof *t->edge);
+    if (!t->edge)
+        return hm_fail_memory(d);
+    for (int32_t e = 0; e < 3 * t->triangles; e++)
+        if (t->half[e].org != HM_TRI_INFINITY)
+            t->edge[t->half[e].org] = e;
     return HM_OK;
 }
 

@@ -40,7 +40,7 @@ struct hm_tri {
     size_t cap_triangles;
 
     double *xy;     /* 2 * vertices; these three share cap_vertices */
-    int32_t *edge;  /* an edge from each vertex; HM_TRI_NONE: removed */
+    int32_t *edge;  /* an edge from each vertex; HM_TRI_NONE: removed. NULL before the first edit */
     int32_t *input; /* lowest input point at each vertex, HM_TRI_NONE: added */
     int32_t vertices;
     size_t cap_vertices;
@@ -101,6 +101,7 @@ static inline void hm_tri_set_marks(struct hm_tri *t, int32_t e, int32_t marks)
 }
 
 /* Make the arrays that are made late, or room for so many more. HM_ENOMEM changes nothing. */
+enum hm_err hm_tri_need_edges(struct hm_tri *t, struct hm_diag *d);
 enum hm_err hm_tri_need_marks(struct hm_tri *t, struct hm_diag *d);
 enum hm_err hm_tri_need_regions(struct hm_tri *t, struct hm_diag *d);
 enum hm_err hm_tri_need_triangles(struct hm_tri *t, int32_t more, struct hm_diag *d);
@@ -118,7 +119,10 @@ int32_t hm_tri_take_vertex(struct hm_tri *t, double x, double y);
 int32_t hm_tri_conquer(struct hm_tri_half *half, const double *xy, int32_t n, uint32_t *key,
                        int threads);
 
-/* hm_tri_locate.c: the solid triangle that holds p, or a ghost whose hull edge has p beyond it. */
+/* hm_tri_locate.c: some edge from vertex v; HM_TRI_NONE when it is removed. */
+int32_t hm_tri_edge_of(const struct hm_tri *t, int32_t v);
+
+/* The solid triangle that holds p, or a ghost whose hull edge has p beyond it. */
 int32_t hm_tri_walk(const struct hm_tri *t, const double *p, int32_t tri);  /* tri: solid */
 int32_t hm_tri_find(const struct hm_tri *t, const double *p, int32_t hint); /* hint may be none */
 

@@ -16,16 +16,42 @@
  * hull is walked by twin and next like everything else. Numbers of triangles stay valid until the
  * triangulation is changed; numbers of vertices for ever.
  *
- *     struct hm_tri *t;
- *     struct hm_diag d = {0};
- *     if (hm_tri_build(&t, xy, n, 2, 1, &d) == HM_OK) {
- *         for (int32_t k = 0; k < hm_tri_triangles(t); k++)
- *             if (hm_tri_is_solid(t, k))
- *                 use(hm_tri_org(t, 3*k), hm_tri_dest(t, 3*k), hm_tri_apex(t, 3*k));
+ * A whole program, which prints the area of a field without the pond in it (tests/tri_header.t runs
+ * it: 84):
+ *
+ *     #include "hm_tri.h"
+ *     #include "hm_pred.h"
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         const double xy[] = {0, 0, 10, 0, 10, 10, 0, 10, 2, 3, 6, 3, 6, 7, 2, 7, 8, 8};
+ *         struct hm_tri *t;
+ *         struct hm_diag d = {0};
+ *         if (hm_tri_build(&t, xy, 9, 2, 1, &d) != HM_OK) {
+ *             fprintf(stderr, "%s\n", d.text);
+ *             return 1;
+ *         }
+ *         struct hm_tri_segment pond[4];
+ *         for (size_t i = 0; i < 4; i++)
+ *             pond[i] = (struct hm_tri_segment){hm_tri_of_input(t, 4 + i),
+ *                                               hm_tri_of_input(t, 4 + (i + 1) % 4), 1};
+ *         enum hm_err err = hm_tri_constrain(t, pond, 4, NULL, &d);
+ *         if (!err)
+ *             err = hm_tri_flood(t, hm_tri_locate(t, 4, 5, NULL), 1, 7, &d);
+ *         double area = 0;
+ *         for (int32_t k = 0; !err && k < hm_tri_triangles(t); k++)
+ *             if (hm_tri_is_solid(t, k) && hm_tri_region(t, k) != 7)
+ *                 area += hm_area2(hm_tri_xy(t, hm_tri_org(t, 3 * k)),
+ *                                  hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
+ *                                  hm_tri_xy(t, hm_tri_apex(t, 3 * k))) / 2;
+ *         printf("%g\n", area);
  *         hm_tri_free(t);
+ *         return err != HM_OK;
  *     }
  *
- * Memory: about 75 bytes a point. At most INT32_MAX / 6 points. A function that fails with
+ * Memory: 72 bytes a point as built, the given points not counted; 4 more once it is edited, 24
+ * with constraints, 8 with regions. At most INT32_MAX / 6 points. A function that fails with
  * HM_ENOMEM leaves the triangulation valid, or (hm_tri_build) none.
  */
 #ifndef HM_TRI_H

@@ -2,6 +2,7 @@
 #include "hm_tri_topology.h"
 
 #include "hm_order.h"
+#include "hm_thread.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,39 +23,58 @@ static enum hm_err check_input(const double *xy, size_t n, size_t stride, struct
  * the array of the triangles, and that of of_input holds the keys of the vertices until the
  * triangles are there. Equal points, of which there are few or none, are noted in a list meanwhile.
  */
-struct build {
-    struct hm_tri *t;
-    struct hm_order_item *item;
-    struct twin {
-        uint32_t index;
-        int32_t v;
-    } * twin;
-    size_t twins, cap;
+struct equal {
+    int32_t input, v;
 };
 
-/* Number the different points in their order. */
-static enum hm_err take_vertices(struct build *b, const double *xy, size_t stride, uint32_t *key,
-                                 struct hm_diag *d)
+struct build {
+    struct hm_tri *t;
+    const double *xy;
+    size_t stride;
+    int threads;
+    struct hm_order_item *item;
+    uint32_t *key;
+    struct equal *equal;
+    size_t equals, cap;
+};
+
+enum { CHUNK = 1 << 15 };
+
+/* The points in their order, a chunk of them; equal ones still are side by side. */
+static void gather(void *pointer, size_t chunk)
+{
+    struct build *b = pointer;
+    struct hm_tri *t = b->t;
+    size_t end = (chunk + 1) * CHUNK < t->n_input ? (chunk + 1) * CHUNK : t->n_input;
+    for (size_t i = chunk * CHUNK; i < end; i++) {
+        struct hm_order_item item = b->item[i];
+        t->xy[2 * i] = b->xy[item.index * b->stride];
+        t->xy[2 * i + 1] = b->xy[item.index * b->stride + 1];
+        t->input[i] = (int32_t)item.index;
+        b->key[i] = item.key;
+    }
+}
+
+/* Keep the first of equal points. */
+static enum hm_err merge_equal(struct build *b, struct hm_diag *d)
 {
     struct hm_tri *t = b->t;
-    int32_t count = 0;
-    double *q = t->xy;
+    size_t n = 0;
     for (size_t i = 0; i < t->n_input; i++) {
-        uint32_t index = b->item[i].index;
-        const double *p = xy + index * stride;
-        if (count > 0 && p[0] == q[-2] && p[1] == q[-1]) {
-            if (!hm_grow(&b->twin, &b->cap, b->twins + 1, sizeof *b->twin))
+        const double *p = t->xy + 2 * i;
+        if (n > 0 && p[0] == t->xy[2 * n - 2] && p[1] == t->xy[2 * n - 1]) {
+            if (!hm_grow(&b->equal, &b->cap, b->equals + 1, sizeof *b->equal))
                 return hm_fail_memory(d);
-            b->twin[b->twins++] = (struct twin){index, count - 1};
-            continue;
+            b->equal[b->equals++] = (struct equal){t->input[i], (int32_t)n - 1};
+        } else {
+            t->xy[2 * n] = p[0];
+            t->xy[2 * n + 1] = p[1];
+            t->input[n] = t->input[i];
+            b->key[n++] = b->key[i];
         }
-        key[count] = b->item[i].key;
-        t->input[count++] = (int32_t)index;
-        *q++ = p[0];
-        *q++ = p[1];
     }
-    t->vertices = count;
-    t->duplicates = b->twins;
+    t->vertices = (int32_t)n;
+    t->duplicates = b->equals;
     return HM_OK;
 }
 
@@ -70,39 +90,41 @@ static enum hm_err allocate(struct hm_tri *t, struct hm_diag *d)
     return t->half && t->xy && t->input && t->of_input ? HM_OK : hm_fail_memory(d);
 }
 
-static enum hm_err triangulate(struct hm_tri *t, uint32_t *key, int threads, struct hm_diag *d)
+static enum hm_err triangulate(const struct build *b, struct hm_diag *d)
 {
+    struct hm_tri *t = b->t;
     if (t->vertices < 3)
         return hm_fail(d, HM_EGEOM, "all points are at %s",
                        t->vertices < 2 ? "one place" : "two places");
     t->triangles = 2 * t->vertices - 2;
-    int32_t ghost = hm_tri_conquer(t->half, t->xy, t->vertices, key, threads);
+    int32_t ghost = hm_tri_conquer(t->half, t->xy, t->vertices, b->key, b->threads);
     if (hm_tri_apex_of(t, t->half[ghost].twin) == HM_TRI_INFINITY)
         return hm_fail(d, HM_EGEOM, "all points are on one line");
     return HM_OK;
 }
 
-static enum hm_err build(struct build *b, const double *xy, size_t stride, int threads,
-                         struct hm_diag *d)
+static enum hm_err build(struct build *b, struct hm_diag *d)
 {
     struct hm_tri *t = b->t;
     enum hm_err err = allocate(t, d);
     if (err)
         return err;
-    uint32_t *key = (uint32_t *)t->of_input;
+    b->key = (uint32_t *)t->of_input;
     b->item = (struct hm_order_item *)(void *)t->half;
-    err = hm_order_sort(xy, t->n_input, stride, HM_ORDER_FINE, threads, b->item,
+    err = hm_order_sort(b->xy, t->n_input, b->stride, HM_ORDER_FINE, b->threads, b->item,
                         b->item + t->n_input, d);
+    if (err)
+        return err;
+    hm_thread_for(b->threads, (t->n_input + CHUNK - 1) / CHUNK, gather, b);
+    err = merge_equal(b, d);
     if (!err)
-        err = take_vertices(b, xy, stride, key, d);
-    if (!err)
-        err = triangulate(t, key, threads, d);
+        err = triangulate(b, d);
     if (err)
         return err;
     for (int32_t v = 0; v < t->vertices; v++)
         t->of_input[t->input[v]] = v;
-    for (size_t i = 0; i < b->twins; i++)
-        t->of_input[b->twin[i].index] = b->twin[i].v;
+    for (size_t i = 0; i < b->equals; i++)
+        t->of_input[b->equal[i].input] = b->equal[i].v;
     return HM_OK;
 }
 
@@ -118,9 +140,9 @@ enum hm_err hm_tri_build(struct hm_tri **out, const double *xy, size_t n, size_t
         return hm_fail_memory(d);
     t->free = HM_TRI_NONE;
     t->n_input = n;
-    struct build b = {.t = t};
-    err = build(&b, xy, stride, threads, d);
-    free(b.twin);
+    struct build b = {.t = t, .xy = xy, .stride = stride, .threads = threads};
+    err = build(&b, d);
+    free(b.equal);
     if (err)
         hm_tri_free(t);
     else

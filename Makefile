@@ -80,7 +80,7 @@ define test_program
 $(B)/test/%: $(1)/%.c $$$$(wildcard $(1)/$$$$*/*.[ch]) $(LIB)
 	@mkdir -p $$(@D)
 	$$(if $$(Q),@echo "  LD      $$@")
-	$$(Q)$$(CC) $$(HM_CFLAGS) -Itests/unit -o $$@ $$(filter %.c,$$^) $$(LIB) $$(HM_LDFLAGS) -lm
+	$$(Q)$$(CC) $$(HM_CFLAGS) -Itests/unit -o $$@ $$(filter $(1)/%.c,$$^) $$(LIB) $$(HM_LDFLAGS) -lm
 endef
 $(eval $(call test_program,tests/unit))
 $(eval $(call test_program,tests/gen))

@@ -7,7 +7,7 @@
 #ifndef HM_CHAIN_H
 #define HM_CHAIN_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 /* The caller keeps the joints, at fixed addresses, cleared by hm_joint_clear. */
 struct hm_joint {

@@ -1,9 +1,5 @@
 #include "hm_data.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* A header that is written with the number of records that really follow. */
 static enum hm_err begin_counted(struct hm_writer *w, const struct hm_header *h, size_t n,
                                  struct hm_diag *d)
@@ -41,41 +37,7 @@ enum hm_err hm_points_write(const struct hm_points *p, struct hm_writer *w, stru
     return err ? err : hm_writer_end(w, d);
 }
 
-enum hm_err hm_points_append(struct hm_points *p, const double *row, struct hm_diag *d)
-{
-    if (p->stride == 0)
-        p->stride = p->header.nfields;
-    if (!hm_grow(&p->v, &p->cap, (p->n + 1) * p->stride, sizeof *p->v))
-        return hm_fail_memory(d);
-    memcpy(p->v + p->n++ * p->stride, row, p->stride * sizeof *row);
-    return HM_OK;
-}
-
-void hm_points_free(struct hm_points *p)
-{
-    hm_header_free(&p->header);
-    free(p->v);
-    *p = (struct hm_points){0};
-}
-
 /* --- grids --- */
-
-enum hm_err hm_grid_init(struct hm_grid *g, struct hm_header *h, struct hm_diag *d)
-{
-    *g = (struct hm_grid){.header = *h, .bands = h->nfields - 2};
-    *h = (struct hm_header){0};
-    const struct hm_lattice *l = &g->header.lattice;
-    if (g->bands < 1 || l->nx < 1 || l->ny < 1 || l->nx > INT64_MAX / l->ny ||
-        (uint64_t)(l->nx * l->ny) > SIZE_MAX / g->bands)
-        return hm_fail_memory(d);
-    size_t n = (size_t)(l->nx * l->ny) * g->bands;
-    g->v = hm_alloc(n, sizeof *g->v);
-    if (!g->v)
-        return hm_fail_memory(d);
-    for (size_t i = 0; i < n; i++)
-        g->v[i] = NAN;
-    return HM_OK;
-}
 
 /* Row by row, so that memory grows with the rows that come, not with what the header says. */
 enum hm_err hm_grid_read(struct hm_grid *g, struct hm_reader *r, struct hm_header *h,
@@ -106,13 +68,6 @@ enum hm_err hm_grid_write(const struct hm_grid *g, struct hm_writer *w, struct h
     return err ? err : hm_writer_end(w, d);
 }
 
-void hm_grid_free(struct hm_grid *g)
-{
-    hm_header_free(&g->header);
-    free(g->v);
-    *g = (struct hm_grid){0};
-}
-
 /* --- lines --- */
 
 enum hm_err hm_lines_read(struct hm_lines *l, struct hm_reader *r, struct hm_header *h,
@@ -136,35 +91,6 @@ enum hm_err hm_lines_write(const struct hm_lines *l, struct hm_writer *w, struct
     for (size_t i = 0; i < l->n && !err; i++)
         err = hm_writer_line(w, &l->line[i], d);
     return err ? err : hm_writer_end(w, d);
-}
-
-enum hm_err hm_lines_append(struct hm_lines *l, const struct hm_line *line, struct hm_diag *d)
-{
-    if (!hm_grow(&l->line, &l->cap, l->n + 1, sizeof *l->line))
-        return hm_fail_memory(d);
-    struct hm_line copy = *line;
-    copy.attrs = strdup(line->attrs ? line->attrs : "");
-    copy.xyz = hm_alloc(line->n, 3 * sizeof *copy.xyz);
-    if (!copy.attrs || !copy.xyz) {
-        free(copy.attrs);
-        free(copy.xyz);
-        return hm_fail_memory(d);
-    }
-    if (line->n > 0)
-        memcpy(copy.xyz, line->xyz, line->n * 3 * sizeof *copy.xyz);
-    l->line[l->n++] = copy;
-    return HM_OK;
-}
-
-void hm_lines_free(struct hm_lines *l)
-{
-    hm_header_free(&l->header);
-    for (size_t i = 0; i < l->n; i++) {
-        free(l->line[i].attrs);
-        free(l->line[i].xyz);
-    }
-    free(l->line);
-    *l = (struct hm_lines){0};
 }
 
 /* --- meshes --- */

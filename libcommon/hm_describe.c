@@ -1,6 +1,7 @@
 #include "hm_describe.h"
 
-#include "hm_data.h"
+#include "hm_line.h"
+#include "hm_mesh.h"
 #include "hm_num.h"
 
 #include <math.h>

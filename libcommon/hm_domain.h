@@ -13,7 +13,7 @@
 #ifndef HM_DOMAIN_H
 #define HM_DOMAIN_H
 
-#include "hm_data.h"
+#include "hm_mesh.h"
 #include "hm_tri.h"
 
 /* What a fixed edge is part of: bits. */

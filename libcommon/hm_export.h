@@ -6,7 +6,10 @@
 #ifndef HM_EXPORT_H
 #define HM_EXPORT_H
 
-#include "hm_data.h"
+#include "hm_grid.h"
+#include "hm_line.h"
+#include "hm_mesh.h"
+#include "hm_writer.h"
 
 /* SMS 2dm: MESH2D, MESHNAME, ND id x y z, E3T id a b c material, E4Q …; ids from 1. Keys `#string
  * name n n …` of the header become node strings (NS). The region is the material number; 2dm has no

@@ -8,6 +8,7 @@
 #ifndef HM_FACE_H
 #define HM_FACE_H
 
+#include "hm_mesh.h"
 #include "hm_rough.h"
 
 struct hm_face {

@@ -7,7 +7,7 @@
 #ifndef HM_FENCE_H
 #define HM_FENCE_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 #include "hm_meshcheck.h"
 #include "hm_segindex.h"
 

@@ -9,6 +9,7 @@
 
 #include "hm_headio.h"
 #include "hm_input.h"
+#include "hm_line.h"
 #include "hm_mesh.h"
 #include "hm_reader.h"
 

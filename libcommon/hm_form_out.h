@@ -4,6 +4,7 @@
 
 #include "hm_attr.h"
 #include "hm_headio.h"
+#include "hm_line.h"
 #include "hm_mesh.h"
 #include "hm_output.h"
 #include "hm_writer.h"

@@ -2,7 +2,7 @@
 #ifndef HM_LINEEDIT_H
 #define HM_LINEEDIT_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 /* Take out vertices at the same x, y as the one before. A closed line with fewer than three
  * vertices left becomes an open one. */

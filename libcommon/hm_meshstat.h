@@ -2,7 +2,7 @@
 #ifndef HM_MESHSTAT_H
 #define HM_MESHSTAT_H
 
-#include "hm_data.h"
+#include "hm_mesh.h"
 
 enum {
     HM_MESHSTAT_BINS = 18, /* of 5 degrees each: smallest angles of elements, 0 .. 90 */

@@ -6,7 +6,7 @@
 #ifndef HM_POLYLINE_H
 #define HM_POLYLINE_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 /* Length in the plane, the closing piece of a closed line included. */
 double hm_polyline_length(const struct hm_line *line);

@@ -21,8 +21,9 @@
 
 #include "hm_header.h"
 
-struct hm_reader;
+struct hm_line;
 struct hm_mesh;
+struct hm_reader;
 
 /* path "-" is standard input. *r is NULL on failure. */
 enum hm_err hm_reader_open(struct hm_reader **r, const char *path, struct hm_diag *d);
@@ -43,14 +44,7 @@ enum hm_err hm_reader_points(struct hm_reader *r, double *rows, size_t max, size
 /* The next row of a grid: nx nodes, their bands side by side (nfields - 2 doubles a node). */
 enum hm_err hm_reader_row(struct hm_reader *r, double *row, struct hm_diag *d);
 
-/* The next line: its attributes and its vertices. The pointers in *line are the reader's and hold
- * until its next call. */
-struct hm_line {
-    char *attrs; /* "" when it has none */
-    double *xyz; /* 3 doubles a vertex; z may be NaN */
-    size_t n;    /* vertices */
-    bool closed; /* the last vertex joins the first, which is not repeated */
-};
+/* The next line. Its pointers are the reader's, and hold until its next call. */
 enum hm_err hm_reader_line(struct hm_reader *r, struct hm_line *line, struct hm_diag *d);
 
 /* The whole mesh, into an empty *mesh (without its header). */

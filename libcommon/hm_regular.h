@@ -14,6 +14,7 @@
 #define HM_REGULAR_H
 
 #include "hm_bspline.h"
+#include "hm_mesh.h"
 #include "hm_rough.h"
 #include "hm_snap.h"
 #include "hm_terrain.h"

@@ -13,7 +13,7 @@
 #ifndef HM_ROUGH_H
 #define HM_ROUGH_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 enum hm_rough_side { HM_LEFT, HM_RIGHT, HM_INFLOW, HM_OUTFLOW, HM_SIDES };
 

@@ -8,7 +8,7 @@
 #ifndef HM_SIMPLIFY_H
 #define HM_SIMPLIFY_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 /* Simplify all lines in place; tolerance in metres. Ends of open lines stay, closed lines keep
  * three vertices at least. */

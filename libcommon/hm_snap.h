@@ -8,7 +8,7 @@
 #ifndef HM_SNAP_H
 #define HM_SNAP_H
 
-#include "hm_data.h"
+#include "hm_line.h"
 
 struct hm_breaklines;
 

@@ -6,7 +6,8 @@
 #ifndef HM_TERRAIN_H
 #define HM_TERRAIN_H
 
-#include "hm_data.h"
+#include "hm_grid.h"
+#include "hm_points.h"
 #include "hm_tri.h"
 
 struct hm_terrain;

@@ -10,10 +10,10 @@
 #define HM_WRITER_H
 
 #include "hm_header.h"
-#include "hm_reader.h"
 
-struct hm_writer;
+struct hm_line;
 struct hm_mesh;
+struct hm_writer;
 
 struct hm_format {
     bool binary;  /* f64le instead of text */

@@ -1,7 +1,7 @@
 /* hm_assemble: see hm_assemble.h. */
 #include "hm_assemble.h"
+#include "hm_assemble_private.h"
 #include "hm_attr.h"
-#include "hm_build.h"
 #include "hm_hull.h"
 #include "hm_polyline.h"
 

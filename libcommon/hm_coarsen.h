@@ -8,11 +8,7 @@
 #define HM_COARSEN_H
 
 #include "hm_domain.h"
-
-struct hm_lengths {
-    double least, most; /* m */
-    double clearance;   /* m: free nodes nearer to a fixed edge make slivers and are taken out */
-};
+#include "hm_lengths.h"
 
 /* Each round triangulates the domain when it has to, changes it, and says how much: *n = 0 when
  * nothing is left to do. Heights of new nodes are means and marked as HM_NODE_NEW; on breaklines

@@ -1,36 +1,10 @@
-/* hm_lengths: the paper's way to an irregular mesh. Layer 6, on coarsen, subdivide and smooth.
- *
- * Coarsening and refinement take turns until no free edge is under the minimum and none over the
- * maximum, or nothing more can be done about it; then the free nodes are smoothed.
- */
+/* hm_lengths: the bounds that the edges of an irregular mesh are held to. Layer 6. */
 #ifndef HM_LENGTHS_H
 #define HM_LENGTHS_H
 
-#include "hm_coarsen.h"
-
-/* Called after every round that changed something, with the domain triangulated: for those who want
- * to watch. A failure ends all. */
-typedef enum hm_err (*hm_lengths_watch)(void *arg, const struct hm_domain *dom, const char *what,
-                                        struct hm_diag *d);
-
-struct hm_lengths_options {
-    struct hm_lengths bounds;
-    int smooth; /* passes */
-    int threads;
-    hm_lengths_watch watch; /* or NULL */
-    void *arg;
+struct hm_lengths {
+    double least, most; /* m */
+    double clearance;   /* m: free nodes nearer to a fixed edge make slivers and are taken out */
 };
-
-/* What could not be reached: edges that are not fixed themselves. */
-struct hm_lengths_left {
-    int64_t rounds;
-    int64_t too_short, too_short_fixed; /* under the minimum; of these with two fixed ends */
-    int64_t too_long, too_long_regular; /* over the maximum; at long edges of regular meshes */
-    int64_t fixed_short, fixed_long;    /* fixed edges out of bounds */
-};
-
-/* HM_EARG when the bounds make no sense, or the mesh would have more nodes than can be. */
-enum hm_err hm_lengths_reach(struct hm_domain *dom, const struct hm_lengths_options *o,
-                             struct hm_lengths_left *left, struct hm_diag *d);
 
 #endif

@@ -1,42 +1,42 @@
 #include "hm_outline.h"
 
-#include "hm_outline_parts.h"
+#include "hm_outline_private.h"
 
 #include <stdlib.h>
 
 /* Walking the lower mesh's old outline for the stretches along the gap. */
 struct walk {
     const struct hm_seam_sides *s;
-    struct hm_chains *chains;
+    struct hm_stretches *stretches;
     int32_t *rest_next; /* of lower's nodes: the next one on the border of the rest, or -1 */
-    bool open;          /* the last chain is being added to */
+    bool open;          /* the last stretch is being added to */
     struct hm_diag *d;
 };
 
-static enum hm_err open_chain(struct walk *w, int64_t from)
+static enum hm_err open_stretch(struct walk *w, int64_t from)
 {
-    struct hm_chains *c = w->chains;
-    if (!hm_grow(&c->chain, &c->chain_cap, c->nchains + 1, sizeof *c->chain))
+    struct hm_stretches *c = w->stretches;
+    if (!hm_grow(&c->stretch, &c->stretch_cap, c->nstretches + 1, sizeof *c->stretch))
         return hm_fail_memory(w->d);
-    c->chain[c->nchains++] = (struct hm_chain){.first = c->nnodes, .from = from, .to = -1};
+    c->stretch[c->nstretches++] = (struct hm_stretch){.first = c->nnodes, .from = from, .to = -1};
     w->open = true;
     return HM_OK;
 }
 
 static enum hm_err append(struct walk *w, int32_t node)
 {
-    struct hm_chains *c = w->chains;
+    struct hm_stretches *c = w->stretches;
     if (!hm_grow(&c->node, &c->node_cap, c->nnodes + 1, sizeof *c->node))
         return hm_fail_memory(w->d);
     c->node[c->nnodes++] = node;
-    c->chain[c->nchains - 1].count++;
+    c->stretch[c->nstretches - 1].count++;
     return HM_OK;
 }
 
 /* The crossing of the outline's edge p–q with the higher border: the first or the last one. */
 static enum hm_err add_crossing(struct walk *w, int32_t p, int32_t q, bool enter)
 {
-    struct hm_chains *c = w->chains;
+    struct hm_stretches *c = w->stretches;
     if (!hm_grow(&c->crossing, &c->crossing_cap, c->ncrossings + 1, sizeof *c->crossing))
         return hm_fail_memory(w->d);
     struct hm_crossing *x = &c->crossing[c->ncrossings];
@@ -83,15 +83,16 @@ static enum hm_err walk_edge(struct walk *w, size_t i, bool first, bool last)
     }
     bool in_p = inside(w, p), in_q = inside(w, q);
     bool through = !in_p && !in_q && passes(w, i);
-    if (!in_p && !w->open && !first && !last && !(err = open_chain(w, -1)))
+    if (!in_p && !w->open && !first && !last && !(err = open_stretch(w, -1)))
         err = append(w, p);
     if (!err && !in_p && (in_q || through) && w->open) {
         err = add_crossing(w, p, q, true);
-        w->chains->chain[w->chains->nchains - 1].to = (int64_t)w->chains->ncrossings - 1;
+        w->stretches->stretch[w->stretches->nstretches - 1].to =
+            (int64_t)w->stretches->ncrossings - 1;
         w->open = false;
     }
     if (!err && !in_q && (in_p || through) && !last && !(err = add_crossing(w, p, q, false)))
-        err = open_chain(w, (int64_t)w->chains->ncrossings - 1);
+        err = open_stretch(w, (int64_t)w->stretches->ncrossings - 1);
     if (!err && !in_q && !last)
         err = append(w, q);
     return err;
@@ -99,16 +100,16 @@ static enum hm_err walk_edge(struct walk *w, size_t i, bool first, bool last)
 
 static enum hm_err walk_whole(struct walk *w, size_t begin, size_t end)
 {
-    enum hm_err err = open_chain(w, -1);
+    enum hm_err err = open_stretch(w, -1);
     for (size_t i = begin; !err && i < end; i++)
         err = append(w, w->s->outline->loops.node[i]);
-    w->chains->chain[w->chains->nchains - 1].closed = true;
+    w->stretches->stretch[w->stretches->nstretches - 1].closed = true;
     w->open = false;
     return err;
 }
 
-/* A loop is entered at an edge where no chain can be open: one that is kept, or begins inside the
- * higher mesh, or passes through that. Without any such edge it is all chain. */
+/* A loop is entered at an edge where no stretch can be open: one that is kept, or begins inside the
+ * higher mesh, or passes through that. Without any such edge it is all stretch. */
 static enum hm_err walk_loop(struct walk *w, size_t begin, size_t end)
 {
     size_t start = begin;
@@ -126,10 +127,10 @@ static enum hm_err walk_loop(struct walk *w, size_t begin, size_t end)
     return err;
 }
 
-static enum hm_err find_chains(struct hm_chains *c, const struct hm_seam_sides *s,
-                               struct hm_diag *d)
+static enum hm_err find_stretches(struct hm_stretches *c, const struct hm_seam_sides *s,
+                                  struct hm_diag *d)
 {
-    struct walk w = {.s = s, .chains = c, .d = d};
+    struct walk w = {.s = s, .stretches = c, .d = d};
     w.rest_next = hm_alloc(s->lower->nnodes, sizeof *w.rest_next);
     if (!w.rest_next)
         return hm_fail_memory(d);
@@ -153,46 +154,46 @@ static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struc
     return HM_OK;
 }
 
-/* The segments of one chain, from the node where it leaves the higher mesh, if it does, to the one
- * where it ends there. A chain that cannot be joined to the higher mesh is left out, and with it
- * the ground behind it, when nothing of the lower mesh stays that would then be cut off. */
-static enum hm_err add_chain(struct hm_outline *o, const struct hm_chains *c,
-                             const struct hm_chain *chain, const struct hm_seam_sides *s,
-                             struct hm_diag *d)
+/* The segments of one stretch, from the node where it leaves the higher mesh, if it does, to the
+ * one where it ends there. A stretch that cannot be joined to the higher mesh is left out, and with
+ * it the ground behind it, when nothing of the lower mesh stays that would then be cut off. */
+static enum hm_err add_stretch(struct hm_outline *o, const struct hm_stretches *c,
+                               const struct hm_stretch *stretch, const struct hm_seam_sides *s,
+                               struct hm_diag *d)
 {
-    size_t first = 0, last = chain->count - 1;
+    size_t first = 0, last = stretch->count - 1;
     struct hm_diag failure = {0};
     enum hm_err err = HM_OK;
-    if (chain->from >= 0)
-        err = hm_chain_attach(c, chain, false, s, chain->count, &first, &failure);
-    if (!err && chain->to >= 0)
-        err = hm_chain_attach(c, chain, true, s, chain->count - first, &last, &failure);
+    if (stretch->from >= 0)
+        err = hm_outline_attach(c, stretch, false, s, stretch->count, &first, &failure);
+    if (!err && stretch->to >= 0)
+        err = hm_outline_attach(c, stretch, true, s, stretch->count - first, &last, &failure);
     if (err && s->rest->n == 0)
         return HM_OK;
     if (err && d && !d->err)
         *d = failure;
-    const int32_t *node = c->node + chain->first;
-    if (!err && chain->from >= 0)
-        err = add_segment(o, c->crossing[chain->from].attach, ~node[first], d);
+    const int32_t *node = c->node + stretch->first;
+    if (!err && stretch->from >= 0)
+        err = add_segment(o, c->crossing[stretch->from].attach, ~node[first], d);
     for (size_t i = first; !err && i < last; i++)
         err = add_segment(o, ~node[i], ~node[i + 1], d);
-    if (!err && chain->closed)
+    if (!err && stretch->closed)
         err = add_segment(o, ~node[last], ~node[first], d);
-    if (!err && chain->to >= 0)
-        err = add_segment(o, ~node[last], c->crossing[chain->to].attach, d);
+    if (!err && stretch->to >= 0)
+        err = add_segment(o, ~node[last], c->crossing[stretch->to].attach, d);
     return err;
 }
 
 enum hm_err hm_outline_make(struct hm_outline *o, const struct hm_seam_sides *s, struct hm_diag *d)
 {
     *o = (struct hm_outline){0};
-    struct hm_chains c = {0};
-    enum hm_err err = find_chains(&c, s, d);
+    struct hm_stretches c = {0};
+    enum hm_err err = find_stretches(&c, s, d);
     if (!err)
-        err = hm_chains_find_mouths(&c, s->higher, &o->widened, d);
-    for (size_t i = 0; !err && i < c.nchains; i++)
-        err = add_chain(o, &c, &c.chain[i], s, d);
-    free(c.chain);
+        err = hm_outline_find_mouths(&c, s->higher, &o->widened, d);
+    for (size_t i = 0; !err && i < c.nstretches; i++)
+        err = add_stretch(o, &c, &c.stretch[i], s, d);
+    free(c.stretch);
     free(c.node);
     free(c.crossing);
     if (err)

@@ -1,7 +1,7 @@
 #include "hm_reader.h"
 
 #include "hm_attr.h"
-#include "hm_form.h"
+#include "hm_reader_private.h"
 #include "hm_row.h"
 
 #include <stdlib.h>
@@ -142,24 +142,24 @@ static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
     size_t n = hm_input_has(&r->in);
     const char *s = hm_input_at(&r->in), *end = s + (n < AHEAD ? n : AHEAD), *first = s;
     if (is_own(s, end)) {
-        r->form = &hm_form_text;
+        r->form = &hm_reader_text;
         return HM_OK;
     }
     if (begins(s, end, "LASF") && hm_input_tell(&r->in) == 0) {
-        r->form = &hm_form_las;
+        r->form = &hm_reader_las;
         return HM_OK;
     }
     end = find_line(s, end, false);
     while (first < end && strchr("# \t\r\n", *first) && *first)
         first = *first == '#' ? next_line(first, end) : first + 1;
-    if (hm_form_is_ascii_grid(first, end))
-        r->form = &hm_form_ascii_grid;
+    if (hm_reader_is_ascii_grid(first, end))
+        r->form = &hm_reader_ascii_grid;
     else if (begins(first, end, "MESH2D") || begins(first, end, "MESHNAME"))
-        r->form = &hm_form_2dm;
+        r->form = &hm_reader_2dm;
     else if (begins(s, end, "# @V") || find_line(s, end, true) < end)
-        r->form = &hm_form_gmt;
+        r->form = &hm_reader_gmt;
     else
-        r->form = &hm_form_table;
+        r->form = &hm_reader_table;
     return refuse_binary(r, s, end, d);
 }
 
@@ -289,7 +289,7 @@ enum hm_err hm_reader_line(struct hm_reader *r, struct hm_line *line, struct hm_
         return err;
     do { /* a mark without vertices is no line */
         r->xyz_n = 0;
-        err = hm_form_set_attrs(r, "", 0, d);
+        err = hm_reader_set_attrs(r, "", 0, d);
         if (!err)
             err = r->form->line(r, d);
     } while (!err && r->xyz_n == 0);
@@ -315,7 +315,7 @@ enum hm_err hm_reader_mesh(struct hm_reader *r, struct hm_mesh *mesh, struct hm_
 
 /* --- what the forms share --- */
 
-enum hm_err hm_form_add_vertex(struct hm_reader *r, const double xyz[3], struct hm_diag *d)
+enum hm_err hm_reader_add_vertex(struct hm_reader *r, const double xyz[3], struct hm_diag *d)
 {
     if (!hm_grow(&r->xyz, &r->xyz_cap, r->xyz_n + 3, sizeof *r->xyz))
         return hm_fail_memory(d);
@@ -324,7 +324,7 @@ enum hm_err hm_form_add_vertex(struct hm_reader *r, const double xyz[3], struct 
     return HM_OK;
 }
 
-enum hm_err hm_form_set_attrs(struct hm_reader *r, const char *s, size_t n, struct hm_diag *d)
+enum hm_err hm_reader_set_attrs(struct hm_reader *r, const char *s, size_t n, struct hm_diag *d)
 {
     if (!hm_grow(&r->attrs, &r->attrs_cap, n + 1, 1))
         return hm_fail_memory(d);
@@ -333,26 +333,26 @@ enum hm_err hm_form_set_attrs(struct hm_reader *r, const char *s, size_t n, stru
     return HM_OK;
 }
 
-const char *hm_form_bad_place(const double *xyz)
+const char *hm_reader_bad_place(const double *xyz)
 {
     if (isnan(xyz[0]) || isnan(xyz[1]))
         return "x or y is not a number";
     return isinf(xyz[0]) || isinf(xyz[1]) ? "x or y is infinite" : "z is infinite";
 }
 
-const char *hm_form_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
-                              int64_t owner)
+const char *hm_reader_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
+                                int64_t owner)
 {
-    if (!hm_form_good_place(xyz))
-        return hm_form_bad_place(xyz);
+    if (!hm_reader_good_place(xyz))
+        return hm_reader_bad_place(xyz);
     if (flags < 0 || flags > INT32_MAX || owner < 0 || owner > INT32_MAX)
         return "the flags or the owner of a node are out of range";
     *node = (struct hm_node){xyz[0], xyz[1], xyz[2], (int32_t)flags, (int32_t)owner};
     return NULL;
 }
 
-const char *hm_form_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
-                              size_t nnodes)
+const char *hm_reader_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
+                                size_t nnodes)
 {
     int64_t region = numbers[corners];
     *elem = (struct hm_elem){.node = {-1, -1, -1, -1}};

@@ -2,7 +2,8 @@
 #ifndef HM_SMOOTH_H
 #define HM_SMOOTH_H
 
-#include "hm_coarsen.h"
+#include "hm_domain.h"
+#include "hm_lengths.h"
 
 /* One pass: each free node moves to the mean of its neighbours, half way there or a quarter, or not
  * at all: when a triangle would turn over, or the smallest angle around get worse while it is under

@@ -6,7 +6,8 @@
 #ifndef HM_SUBDIVIDE_H
 #define HM_SUBDIVIDE_H
 
-#include "hm_coarsen.h"
+#include "hm_domain.h"
+#include "hm_lengths.h"
 
 /* Rounds as those of hm_coarsen. No new node comes nearer to another than the minimum, lest
  * coarsening take it away again; but fixed edges over the maximum are halved in any case, those of

@@ -1,6 +1,6 @@
 #include "hm_writer.h"
 
-#include "hm_form_out.h"
+#include "hm_writer_private.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -79,7 +79,7 @@ enum hm_err hm_writer_begin(struct hm_writer *w, const struct hm_header *h, stru
     w->nfields = h->nfields;
     w->lattice = h->lattice;
     w->records = w->rows = 0;
-    w->form = w->format.binary ? &hm_form_out_blocks : &hm_form_out_text;
+    w->form = w->format.binary ? &hm_writer_blocks : &hm_writer_text;
     enum hm_err err = hm_headio_write(&w->out, h, encoding, d);
     return err ? err : w->form->begin(w, d);
 }

@@ -1,12 +1,12 @@
 /* trimesh: points, lines and regular meshes → the irregular mesh around them.
  *
  * Section 6 of the paper. Assembles the domain (hm_assemble), brings its edges between two lengths
- * (hm_lengths), takes the heights of what is new from the terrain, writes one mesh.
+ * (hm_paper), takes the heights of what is new from the terrain, writes one mesh.
  */
 #include "hm_assemble.h"
 #include "hm_cli.h"
-#include "hm_lengths.h"
 #include "hm_owners.h"
+#include "hm_paper.h"
 #include "hm_role.h"
 
 #include <errno.h>
@@ -155,7 +155,7 @@ static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
             c->median_segment, cmd.min_edge);
 }
 
-static void say_left(struct hm_cli *cli, const struct hm_lengths_left *left)
+static void say_left(struct hm_cli *cli, const struct hm_paper_left *left)
 {
     if (left->too_short > 0)
         hm_cli_say(cli, "%lld edges under %g m are left, %lld of them between fixed nodes",
@@ -243,9 +243,9 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
                              struct hm_domain *dom)
 {
     struct hm_diag d = {0};
-    struct hm_lengths_left left;
+    struct hm_paper_left left;
     struct steps steps = {.cli = cli, .header = header};
-    struct hm_lengths_options o = {
+    struct hm_paper_options o = {
         .bounds = {.least = cmd.min_edge, .most = cmd.max_edge, .clearance = cmd.min_edge / 2},
         .smooth = cmd.smooth,
         .threads = hm_cli_threads(cli)};
@@ -258,7 +258,7 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
         o.arg = &steps;
         hm_cli_check(cli, write_step(&steps, dom, "start", &d), &d);
     }
-    hm_cli_check(cli, hm_lengths_reach(dom, &o, &left, &d), &d);
+    hm_cli_check(cli, hm_paper_reach(dom, &o, &left, &d), &d);
     say_left(cli, &left);
 }
 

@@ -1,10 +1,10 @@
-/* hm_assemble and hm_lengths: what must hold of every irregular mesh, on inputs made for it: it
+/* hm_assemble and hm_paper: what must hold of every irregular mesh, on inputs made for it: it
  * covers its domain once, keeps the boundaries of regular meshes and every piece of every
  * breakline, is constrained Delaunay, and lies on the terrain. */
 #include "hm_assemble.h"
 #include "hm_attr.h"
-#include "hm_lengths.h"
 #include "hm_meshcheck.h"
+#include "hm_paper.h"
 #include "hm_polyline.h"
 #include "meshes.h"
 #include "tap.h"
@@ -31,7 +31,7 @@ struct trial {
     struct hm_terrain *terrain;
     struct hm_domain dom;
     struct hm_assembly_counts counts;
-    struct hm_lengths_left left;
+    struct hm_paper_left left;
     struct hm_mesh mesh;
     struct hm_diag d;
 };
@@ -80,10 +80,10 @@ static enum hm_err assemble(struct trial *c, double clearance)
 static bool run(struct trial *c, double least, double most)
 {
     enum hm_err err = assemble(c, most > 0 ? least / 2 : 0.5);
-    const struct hm_lengths_options o = {
+    const struct hm_paper_options o = {
         .bounds = {least, most, least / 2}, .smooth = 3, .threads = 2};
     if (!err && most > 0)
-        err = hm_lengths_reach(&c->dom, &o, &c->left, &c->d);
+        err = hm_paper_reach(&c->dom, &o, &c->left, &c->d);
     if (!err)
         err = hm_domain_mesh(&c->dom, &c->mesh, &c->d);
     return ok(err == HM_OK, "it is made: %s", c->d.text);

@@ -1,5 +1,5 @@
 /* The project's own text: a header, a record a line, `#end`. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_attr.h"
 #include "hm_row.h"
@@ -54,7 +54,7 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
         const char *s, *end;
         double *v = rows + *n * k;
         enum hm_err err = hm_input_line(&r->in, &s, &end, d);
-        if (!err && hm_row_parse(s, end, v, k) && hm_form_good_place(v)) {
+        if (!err && hm_row_parse(s, end, v, k) && hm_reader_good_place(v)) {
             ++*n;
             continue;
         }
@@ -65,8 +65,8 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
             return err == HM_END && *n > 0 ? HM_OK : err;
         if (!hm_row_parse(s, end, v, k))
             return hm_row_fail(&r->in, s, end, k, false, d);
-        if (!hm_form_good_place(v))
-            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_form_bad_place(v));
+        if (!hm_reader_good_place(v))
+            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_reader_bad_place(v));
         ++*n;
     }
     return HM_OK;
@@ -110,8 +110,8 @@ static enum hm_err read_node(struct hm_reader *r, int64_t *number, struct hm_dia
         return err;
     if (!hm_row_parse(s, end, v, r->nfields))
         return hm_row_fail(&r->in, s, end, r->nfields, false, d);
-    if (!hm_form_good_place(v))
-        return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_form_bad_place(v));
+    if (!hm_reader_good_place(v))
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_reader_bad_place(v));
     *number = node_number(&r->lattice, v[0], v[1]);
     if (*number < 0)
         why = "not at a node of the lattice that the header describes";
@@ -183,7 +183,7 @@ static enum hm_err read_mark(struct hm_reader *r, struct hm_diag *d)
     struct hm_diag why = {0};
     if (!hm_row_is_text(s, end))
         return hm_input_fail(&r->in, HM_EFORMAT, d, "control characters among attributes");
-    err = hm_form_set_attrs(r, s, (size_t)(end - s), d);
+    err = hm_reader_set_attrs(r, s, (size_t)(end - s), d);
     if (!err && (err = hm_attr_check(r->attrs, &why)))
         hm_input_fail(&r->in, err, d, "%s", why.text);
     return err;
@@ -204,9 +204,9 @@ static enum hm_err read_line(struct hm_reader *r, struct hm_diag *d)
         }
         if (!hm_row_parse(s, end, v, 3))
             return hm_row_fail(&r->in, s, end, 3, false, d);
-        if (!hm_form_good_place(v))
-            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_form_bad_place(v));
-        err = hm_form_add_vertex(r, v, d);
+        if (!hm_reader_good_place(v))
+            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_reader_bad_place(v));
+        err = hm_reader_add_vertex(r, v, d);
     }
     return err == HM_END && r->xyz_n > 0 ? HM_OK : err;
 }
@@ -222,7 +222,7 @@ static enum hm_err add_node(struct hm_reader *r, const double v[5], struct hm_me
     if (!(fabs(v[3]) <= INT32_MAX && fabs(v[4]) <= INT32_MAX && v[3] == floor(v[3]) &&
           v[4] == floor(v[4])))
         return hm_input_fail(&r->in, HM_EFORMAT, d, "flags and owner must be whole numbers");
-    const char *why = hm_form_make_node(&node, v, (int64_t)v[3], (int64_t)v[4]);
+    const char *why = hm_reader_make_node(&node, v, (int64_t)v[3], (int64_t)v[4]);
     return why ? hm_input_fail(&r->in, HM_EFORMAT, d, "%s", why) : hm_mesh_add_node(m, node, d);
 }
 
@@ -236,7 +236,7 @@ static enum hm_err add_elem(struct hm_reader *r, const double v[5], int corners,
             return hm_input_fail(&r->in, HM_EFORMAT, d, "node numbers and region must be whole");
         numbers[i] = (int64_t)v[i];
     }
-    const char *why = hm_form_make_elem(&elem, numbers, corners, m->nnodes);
+    const char *why = hm_reader_make_elem(&elem, numbers, corners, m->nnodes);
     return why ? hm_input_fail(&r->in, HM_EFORMAT, d, "%s", why) : hm_mesh_add_elem(m, elem, d);
 }
 
@@ -268,7 +268,7 @@ static enum hm_err begin_object(struct hm_reader *r, struct hm_header *h, struct
     if (err)
         return err;
     if (encoding != HM_TEXT)
-        return hm_form_begin_blocks(r, encoding, d);
+        return hm_reader_begin_blocks(r, encoding, d);
     if (h->kind == HM_GRID) {
         r->state = hm_alloc0(1, sizeof(struct text_grid));
         if (!r->state || !hm_grow(&r->row, &r->row_cap, h->nfields, sizeof *r->row))
@@ -277,8 +277,8 @@ static enum hm_err begin_object(struct hm_reader *r, struct hm_header *h, struct
     return HM_OK;
 }
 
-const struct hm_form hm_form_text = {.begin = begin_object,
-                                     .points = read_points,
-                                     .row = read_row,
-                                     .line = read_line,
-                                     .mesh = read_mesh};
+const struct hm_reader_form hm_reader_text = {.begin = begin_object,
+                                              .points = read_points,
+                                              .row = read_row,
+                                              .line = read_line,
+                                              .mesh = read_mesh};

@@ -1,8 +1,8 @@
-/* hm_build: what hm_assemble works on. Internal to hm_assemble.c, which puts everything into one
- * triangulation, and hm_ground.c, which finds in it the ground to be meshed.
+/* hm_assemble_private: what hm_assemble works on. Internal to hm_assemble.c, which puts everything
+ * into one triangulation, and hm_assemble_ground.c, which finds in it the ground to be meshed.
  */
-#ifndef HM_BUILD_H
-#define HM_BUILD_H
+#ifndef HM_ASSEMBLE_PRIVATE_H
+#define HM_ASSEMBLE_PRIVATE_H
 
 #include "hm_assemble.h"
 #include "hm_fence.h"

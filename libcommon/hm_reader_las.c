@@ -1,6 +1,6 @@
 /* LAS 1.0 to 1.4, point formats 0 to 10: points with the fields x y z class. Points that are marked
  * as withheld are left out. (ASPRS, LAS specification 1.4-R15.) */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_block.h"
 
@@ -120,8 +120,8 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
         if (hm_input_has(&r->in) < las->record)
             return cut_off(r, d);
         if (get_point(las, hm_input_at(&r->in), rows + 4 * *n)) {
-            if (!hm_form_good_place(rows + 4 * *n))
-                return refuse(r, hm_input_tell(&r->in), hm_form_bad_place(rows + 4 * *n), d);
+            if (!hm_reader_good_place(rows + 4 * *n))
+                return refuse(r, hm_input_tell(&r->in), hm_reader_bad_place(rows + 4 * *n), d);
             ++*n;
         }
         r->in.pos += las->record;
@@ -139,4 +139,4 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
     return HM_END;
 }
 
-const struct hm_form hm_form_las = {.begin = begin, .points = read_points};
+const struct hm_reader_form hm_reader_las = {.begin = begin, .points = read_points};

@@ -1,5 +1,7 @@
-/* hm_lengths: see hm_lengths.h. */
-#include "hm_lengths.h"
+/* hm_paper: see hm_paper.h. */
+#include "hm_paper.h"
+
+#include "hm_coarsen.h"
 #include "hm_pred.h"
 #include "hm_smooth.h"
 #include "hm_subdivide.h"
@@ -15,9 +17,9 @@ enum { MOST_TURNS = 12, BOLD_TURNS = 2, FEW = 50 /* of so many nodes one */ };
 
 struct work {
     struct hm_domain *dom;
-    const struct hm_lengths_options *o;
+    const struct hm_paper_options *o;
     struct hm_lengths bounds; /* as they count in this turn */
-    struct hm_lengths_left *left;
+    struct hm_paper_left *left;
 };
 
 typedef enum hm_err (*round_fn)(struct hm_domain *dom, const struct hm_lengths *l, int threads,
@@ -140,7 +142,7 @@ static void judge(const struct work *w, int32_t e, double length2)
 {
     const struct hm_domain *dom = w->dom;
     const struct hm_lengths *l = &w->o->bounds;
-    struct hm_lengths_left *left = w->left;
+    struct hm_paper_left *left = w->left;
     int32_t org = dom->node_of[hm_tri_org(dom->tri, e)],
             dest = dom->node_of[hm_tri_dest(dom->tri, e)];
     bool is_short = length2<l->least * l->least, is_long = length2> l->most * l->most;
@@ -171,11 +173,11 @@ static enum hm_err count_left(const struct work *w, struct hm_diag *d)
     return err;
 }
 
-enum hm_err hm_lengths_reach(struct hm_domain *dom, const struct hm_lengths_options *o,
-                             struct hm_lengths_left *left, struct hm_diag *d)
+enum hm_err hm_paper_reach(struct hm_domain *dom, const struct hm_paper_options *o,
+                           struct hm_paper_left *left, struct hm_diag *d)
 {
     struct work w = {.dom = dom, .o = o, .left = left};
-    *left = (struct hm_lengths_left){0};
+    *left = (struct hm_paper_left){0};
     if (!(o->bounds.least > 0 && o->bounds.most > o->bounds.least))
         return hm_fail(d, HM_EARG, "minimum edge %g m, maximum edge %g m: the maximum must be more",
                        o->bounds.least, o->bounds.most);

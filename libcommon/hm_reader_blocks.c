@@ -1,5 +1,5 @@
 /* The project's binary: counted blocks behind the header, and `done`. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_attr.h"
 #include "hm_block.h"
@@ -114,8 +114,8 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
         double *v = rows + *n * k;
         get_numbers(v, bytes, got * k);
         for (size_t i = 0; i < got; i++)
-            if (!hm_form_good_place(v + i * k))
-                return wrong(r, (int64_t)((got - i) * 8 * k), hm_form_bad_place(v + i * k), d);
+            if (!hm_reader_good_place(v + i * k))
+                return wrong(r, (int64_t)((got - i) * 8 * k), hm_reader_bad_place(v + i * k), d);
         *n += got;
     }
     return HM_OK;
@@ -194,9 +194,9 @@ static enum hm_err read_vertices(struct hm_reader *r, struct hm_diag *d)
         if ((err = take(r, sizeof v, &bytes, d)))
             return err;
         get_numbers(v, bytes, 3);
-        if (!hm_form_good_place(v))
-            return wrong(r, sizeof v, hm_form_bad_place(v), d);
-        err = hm_form_add_vertex(r, v, d);
+        if (!hm_reader_good_place(v))
+            return wrong(r, sizeof v, hm_reader_bad_place(v), d);
+        err = hm_reader_add_vertex(r, v, d);
     }
     return err;
 }
@@ -223,8 +223,8 @@ static enum hm_err read_node(struct hm_reader *r, struct hm_mesh *m, struct hm_d
     if (err)
         return err;
     get_numbers(xyz, bytes, 3);
-    const char *why = hm_form_make_node(&node, xyz, (int64_t)hm_block_get_u64(bytes + 24),
-                                        (int64_t)hm_block_get_u64(bytes + 32));
+    const char *why = hm_reader_make_node(&node, xyz, (int64_t)hm_block_get_u64(bytes + 24),
+                                          (int64_t)hm_block_get_u64(bytes + 32));
     return why ? wrong(r, NODE_BYTES, why, d) : hm_mesh_add_node(m, node, d);
 }
 
@@ -239,7 +239,7 @@ static enum hm_err read_elem(struct hm_reader *r, int corners, struct hm_mesh *m
         return err;
     for (int i = 0; i <= corners; i++)
         numbers[i] = (int64_t)hm_block_get_u64(bytes + 8 * i);
-    const char *why = hm_form_make_elem(&elem, numbers, corners, m->nnodes);
+    const char *why = hm_reader_make_elem(&elem, numbers, corners, m->nnodes);
     return why ? wrong(r, (int64_t)size, why, d) : hm_mesh_add_elem(m, elem, d);
 }
 
@@ -261,10 +261,11 @@ static enum hm_err read_mesh(struct hm_reader *r, struct hm_mesh *m, struct hm_d
     return err == HM_END ? HM_OK : err;
 }
 
-static const struct hm_form form = {
+static const struct hm_reader_form form = {
     .points = read_points, .row = read_row, .line = read_line, .mesh = read_mesh};
 
-enum hm_err hm_form_begin_blocks(struct hm_reader *r, enum hm_encoding encoding, struct hm_diag *d)
+enum hm_err hm_reader_begin_blocks(struct hm_reader *r, enum hm_encoding encoding,
+                                   struct hm_diag *d)
 {
     struct blocks *b = hm_alloc0(1, sizeof *b);
     if (!b)

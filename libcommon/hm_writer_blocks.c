@@ -1,6 +1,6 @@
 /* Writing the project's binary: blocks of 65,536 records but for the last, so that the bytes do not
  * depend on how the records came in. */
-#include "hm_form_out.h"
+#include "hm_writer_private.h"
 
 #include "hm_block.h"
 
@@ -150,9 +150,9 @@ static enum hm_err put_end(struct hm_writer *w, struct hm_diag *d)
     return err ? err : put_head(w, "done", (uint64_t)w->records, d);
 }
 
-const struct hm_form_out hm_form_out_blocks = {.begin = begin,
-                                               .points = put_points,
-                                               .row = put_row,
-                                               .line = put_line,
-                                               .mesh = put_mesh,
-                                               .end = put_end};
+const struct hm_writer_form hm_writer_blocks = {.begin = begin,
+                                                .points = put_points,
+                                                .row = put_row,
+                                                .line = put_line,
+                                                .mesh = put_mesh,
+                                                .end = put_end};

@@ -1,5 +1,5 @@
 /* Writing the project's text: a record a line, `#end COUNT`. */
-#include "hm_form_out.h"
+#include "hm_writer_private.h"
 
 #include "hm_num.h"
 
@@ -148,9 +148,9 @@ static enum hm_err put_end(struct hm_writer *w, struct hm_diag *d)
     return hm_output_write(&w->out, text, (size_t)n, d);
 }
 
-const struct hm_form_out hm_form_out_text = {.begin = begin,
-                                             .points = put_points,
-                                             .row = put_row,
-                                             .line = put_line,
-                                             .mesh = put_mesh,
-                                             .end = put_end};
+const struct hm_writer_form hm_writer_text = {.begin = begin,
+                                              .points = put_points,
+                                              .row = put_row,
+                                              .line = put_line,
+                                              .mesh = put_mesh,
+                                              .end = put_end};

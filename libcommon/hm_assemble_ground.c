@@ -1,5 +1,6 @@
-/* hm_ground: the ground to be meshed, and the domain that it makes. See hm_build.h. */
-#include "hm_build.h"
+/* hm_assemble_ground: the ground to be meshed, and the domain that it makes. See
+ * hm_assemble_private.h. */
+#include "hm_assemble_private.h"
 #include "hm_polyline.h"
 #include "hm_pred.h"
 

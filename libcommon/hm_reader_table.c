@@ -1,5 +1,5 @@
 /* Bare tables of points: `x y z …` between blanks or commas, `#` comments, one line of names. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_row.h"
 
@@ -209,7 +209,7 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
         const char *s, *end;
         double *v = rows + *n * r->nfields;
         enum hm_err err = hm_input_line(&r->in, &s, &end, d);
-        if (!err && t->plain && hm_row_parse(s, end, v, t->columns) && hm_form_good_place(v))
+        if (!err && t->plain && hm_row_parse(s, end, v, t->columns) && hm_reader_good_place(v))
             continue;
         if (!err)
             hm_input_unread(&r->in); /* and look at it more closely */
@@ -225,10 +225,11 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
                                  "'>' in a table of points; a file of lines begins with it");
         if (!parse(t, s, end, v))
             return hm_row_fail(&r->in, s, end, t->columns, t->comma, d);
-        if (!hm_form_good_place(v))
-            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_form_bad_place(v));
+        if (!hm_reader_good_place(v))
+            return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_reader_bad_place(v));
     }
     return HM_OK;
 }
 
-const struct hm_form hm_form_table = {.begin = begin, .points = read_points, .free = free_table};
+const struct hm_reader_form hm_reader_table = {
+    .begin = begin, .points = read_points, .free = free_table};

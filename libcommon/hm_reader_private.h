@@ -1,11 +1,11 @@
-/* hm_form: inside the reader: what its parts share. Layer 2.
+/* hm_reader_private: what its parts share. Layer 2.
  *
  * A form is one way in which objects are written: the project's text, its blocks, or a foreign
  * format. hm_reader.c recognises it and calls its functions; these read, check what they read, set
  * `ended` when they have seen the end of the object, and then return HM_END.
  */
-#ifndef HM_FORM_H
-#define HM_FORM_H
+#ifndef HM_READER_PRIVATE_H
+#define HM_READER_PRIVATE_H
 
 #include "hm_headio.h"
 #include "hm_input.h"
@@ -16,7 +16,7 @@
 #include <float.h>
 #include <math.h>
 
-struct hm_form {
+struct hm_reader_form {
     /* Recognised: make the header, which is empty, and `state`. */
     enum hm_err (*begin)(struct hm_reader *r, struct hm_header *h, struct hm_diag *d);
     /* As hm_reader_points and so on; those that the form's kind needs. A line goes to r->attrs and
@@ -35,7 +35,7 @@ struct hm_reader {
     bool any; /* an object was found */
 
     /* the object being read */
-    const struct hm_form *form; /* NULL between objects */
+    const struct hm_reader_form *form; /* NULL between objects */
     enum hm_kind kind;
     size_t nfields;
     struct hm_lattice lattice;
@@ -55,36 +55,37 @@ struct hm_reader {
     size_t row_cap;
 };
 
-extern const struct hm_form hm_form_text;  /* the project's text */
-extern const struct hm_form hm_form_table; /* bare points */
-extern const struct hm_form hm_form_gmt;   /* GMT multisegment lines */
-extern const struct hm_form hm_form_las;
-extern const struct hm_form hm_form_ascii_grid;
-extern const struct hm_form hm_form_2dm;
+extern const struct hm_reader_form hm_reader_text;  /* the project's text */
+extern const struct hm_reader_form hm_reader_table; /* bare points */
+extern const struct hm_reader_form hm_reader_gmt;   /* GMT multisegment lines */
+extern const struct hm_reader_form hm_reader_las;
+extern const struct hm_reader_form hm_reader_ascii_grid;
+extern const struct hm_reader_form hm_reader_2dm;
 
 /* Does the input begin with a key of an ESRI ASCII grid? */
-bool hm_form_is_ascii_grid(const char *s, const char *end);
+bool hm_reader_is_ascii_grid(const char *s, const char *end);
 
-/* The project's binary: r->form becomes it, once hm_form_text has read the header. */
-enum hm_err hm_form_begin_blocks(struct hm_reader *r, enum hm_encoding encoding, struct hm_diag *d);
+/* The project's binary: r->form becomes it, once hm_reader_text has read the header. */
+enum hm_err hm_reader_begin_blocks(struct hm_reader *r, enum hm_encoding encoding,
+                                   struct hm_diag *d);
 
 /* Append to the line being read. */
-enum hm_err hm_form_add_vertex(struct hm_reader *r, const double xyz[3], struct hm_diag *d);
-enum hm_err hm_form_set_attrs(struct hm_reader *r, const char *s, size_t n, struct hm_diag *d);
+enum hm_err hm_reader_add_vertex(struct hm_reader *r, const double xyz[3], struct hm_diag *d);
+enum hm_err hm_reader_set_attrs(struct hm_reader *r, const char *s, size_t n, struct hm_diag *d);
 
 /* Can a point be here? x and y must be finite, z must not be infinite. */
-static inline bool hm_form_good_place(const double *xyz)
+static inline bool hm_reader_good_place(const double *xyz)
 {
     return fabs(xyz[0]) <= DBL_MAX && fabs(xyz[1]) <= DBL_MAX && !(fabs(xyz[2]) > DBL_MAX);
 }
 /* Why it cannot. */
-const char *hm_form_bad_place(const double *xyz);
+const char *hm_reader_bad_place(const double *xyz);
 
 /* A node, and an element of the numbers of its corners (three or four) and its region, from
  * outside. Return NULL, or what is wrong with them. */
-const char *hm_form_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
-                              int64_t owner);
-const char *hm_form_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
-                              size_t nnodes);
+const char *hm_reader_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
+                                int64_t owner);
+const char *hm_reader_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
+                                size_t nnodes);
 
 #endif

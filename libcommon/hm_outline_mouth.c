@@ -1,5 +1,5 @@
-/* hm_mouth: the ends of the lower mesh's outline at the higher mesh's border. */
-#include "hm_outline_parts.h"
+/* hm_outline_mouth: the ends of the lower mesh's outline at the higher mesh's border. */
+#include "hm_outline_private.h"
 
 #include "hm_plane.h"
 #include "hm_pred.h"
@@ -82,8 +82,8 @@ static bool widen(const struct hm_border *h, const size_t *prev, struct hm_cross
     return true;
 }
 
-enum hm_err hm_chains_find_mouths(struct hm_chains *c, const struct hm_border *h, int64_t *widened,
-                                  struct hm_diag *d)
+enum hm_err hm_outline_find_mouths(struct hm_stretches *c, const struct hm_border *h,
+                                   int64_t *widened, struct hm_diag *d)
 {
     struct along *order = hm_alloc(c->ncrossings, sizeof *order);
     size_t *prev = hm_alloc(h->n, sizeof *prev);
@@ -178,12 +178,12 @@ static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t
     return against;
 }
 
-enum hm_err hm_chain_attach(const struct hm_chains *c, const struct hm_chain *chain, bool at_end,
-                            const struct hm_seam_sides *s, size_t limit, size_t *found,
-                            struct hm_diag *d)
+enum hm_err hm_outline_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                              bool at_end, const struct hm_seam_sides *s, size_t limit,
+                              size_t *found, struct hm_diag *d)
 {
-    const struct hm_crossing *x = &c->crossing[at_end ? chain->to : chain->from];
-    const int32_t *node = c->node + chain->first + (at_end ? chain->count - 1 : 0);
+    const struct hm_crossing *x = &c->crossing[at_end ? stretch->to : stretch->from];
+    const int32_t *node = c->node + stretch->first + (at_end ? stretch->count - 1 : 0);
     const double *a = hm_border_from(s->higher, x->edge), *b = hm_border_to(s->higher, x->edge);
     const double place[2] = {a[0] + x->at * (b[0] - a[0]), a[1] + x->at * (b[1] - a[1])};
     double junction =
@@ -194,7 +194,7 @@ enum hm_err hm_chain_attach(const struct hm_chains *c, const struct hm_chain *ch
         int against = objection(x, node, at_end ? -1 : 1, j, notch, s);
         if (against < least) {
             least = against;
-            *found = at_end ? chain->count - 1 - j : j;
+            *found = at_end ? stretch->count - 1 - j : j;
         }
         if (s->kept[node[at_end ? -(ptrdiff_t)j : (ptrdiff_t)j]])
             break; /* a node of an element that stays cannot be left out */

@@ -1,5 +1,5 @@
 /* ESRI ASCII grids: a few keys, then the values row by row, the north first. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_row.h"
 
@@ -26,7 +26,7 @@ static enum key which(const char *s, const char *end)
     return (enum key)k;
 }
 
-bool hm_form_is_ascii_grid(const char *s, const char *end)
+bool hm_reader_is_ascii_grid(const char *s, const char *end)
 {
     const char *stop = s;
     while (stop < end && !strchr(" \t\r\n", *stop))
@@ -177,4 +177,4 @@ static enum hm_err read_row(struct hm_reader *r, double *row, struct hm_diag *d)
     return err;
 }
 
-const struct hm_form hm_form_ascii_grid = {.begin = begin, .row = read_row};
+const struct hm_reader_form hm_reader_ascii_grid = {.begin = begin, .row = read_row};

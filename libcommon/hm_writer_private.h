@@ -1,6 +1,6 @@
-/* hm_form_out: inside the writer: what its two forms, text and blocks, share. Layer 2. */
-#ifndef HM_FORM_OUT_H
-#define HM_FORM_OUT_H
+/* hm_writer_private: what its two forms, text and blocks, share. Layer 2. */
+#ifndef HM_WRITER_PRIVATE_H
+#define HM_WRITER_PRIVATE_H
 
 #include "hm_attr.h"
 #include "hm_headio.h"
@@ -10,7 +10,7 @@
 #include "hm_writer.h"
 
 /* The header is written already; each function appends to w->out. attrs agree with line->closed. */
-struct hm_form_out {
+struct hm_writer_form {
     enum hm_err (*begin)(struct hm_writer *w, struct hm_diag *d);
     enum hm_err (*points)(struct hm_writer *w, const double *rows, size_t n, struct hm_diag *d);
     enum hm_err (*row)(struct hm_writer *w, const double *row, struct hm_diag *d);
@@ -20,8 +20,8 @@ struct hm_form_out {
     enum hm_err (*end)(struct hm_writer *w, struct hm_diag *d);
 };
 
-extern const struct hm_form_out hm_form_out_text;
-extern const struct hm_form_out hm_form_out_blocks;
+extern const struct hm_writer_form hm_writer_text;
+extern const struct hm_writer_form hm_writer_blocks;
 
 struct hm_writer {
     struct hm_output out;
@@ -29,7 +29,7 @@ struct hm_writer {
 
     /* the object being written */
     enum hm_kind kind; /* 0 between objects */
-    const struct hm_form_out *form;
+    const struct hm_writer_form *form;
     size_t nfields;
     struct hm_lattice lattice;
     int64_t records; /* as they are counted behind its end */

@@ -1,7 +1,7 @@
 /* SMS .2dm meshes: ND nodes, E3T triangles, E4Q quadrilaterals, NS node strings, in any order. Read
  * whole at once: numbers of nodes may have gaps, and the strings, which come last, go to the
  * header. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_row.h"
 
@@ -75,7 +75,7 @@ static enum hm_err read_node(struct hm_reader *r, const char *s, const char *end
     if (!cut_id(&s, end, &id) || id < 0 || !cut_number(&s, end, &xyz[0]) ||
         !cut_number(&s, end, &xyz[1]) || !cut_number(&s, end, &xyz[2]))
         return bad_line(r, s, end, d);
-    const char *why = hm_form_make_node(&node, xyz, 0, 0);
+    const char *why = hm_reader_make_node(&node, xyz, 0, 0);
     if (why)
         return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", why);
     if (!hm_grow(&m->id, &m->id_cap, m->mesh.nnodes + 1, sizeof *m->id))
@@ -251,7 +251,7 @@ static enum hm_err number_elems(struct hm_reader *r, struct hm_diag *d)
         for (int k = 0; k < corners; k++)
             numbers[k] = find_node(m, e->node[k]);
         numbers[corners] = e->region == m->none ? 0 : e->region;
-        const char *why = hm_form_make_elem(e, numbers, corners, m->mesh.nnodes);
+        const char *why = hm_reader_make_elem(e, numbers, corners, m->mesh.nnodes);
         if (why)
             return hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "%s (element %zu of the file)", why,
                                 i + 1);
@@ -328,4 +328,4 @@ static enum hm_err read_mesh(struct hm_reader *r, struct hm_mesh *mesh, struct h
     return HM_OK;
 }
 
-const struct hm_form hm_form_2dm = {.begin = begin, .mesh = read_mesh, .free = free_2dm};
+const struct hm_reader_form hm_reader_2dm = {.begin = begin, .mesh = read_mesh, .free = free_2dm};

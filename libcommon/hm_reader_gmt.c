@@ -1,7 +1,7 @@
 /* GMT multisegment lines: `>` begins a line, its attributes behind it or, as OGR_GMT writes them,
  * in comments: `# @N` names, `# @D` values, `# @P` and `# @H` the outer and inner rings of
  * polygons. */
-#include "hm_form.h"
+#include "hm_reader_private.h"
 
 #include "hm_attr.h"
 #include "hm_row.h"
@@ -108,7 +108,7 @@ static enum hm_err begin_hole(struct hm_reader *r, struct hm_diag *d)
     const struct gmt *g = r->state;
     enum hm_err err = HM_OK;
     if (g->feature && !*r->attrs)
-        err = hm_form_set_attrs(r, g->feature, strlen(g->feature), d);
+        err = hm_reader_set_attrs(r, g->feature, strlen(g->feature), d);
     return err ? err : set_attr(r, "hole", "1", d);
 }
 
@@ -200,7 +200,7 @@ static enum hm_err read_mark(struct hm_reader *r, const char *s, const char *end
     s = hm_row_skip(s + 1, end);
     while (end > s && hm_row_is_blank(end[-1]))
         end--;
-    enum hm_err err = hm_form_set_attrs(r, s, (size_t)(end - s), d);
+    enum hm_err err = hm_reader_set_attrs(r, s, (size_t)(end - s), d);
     if (err || (*r->attrs != '-' && !hm_attr_check(r->attrs, NULL)))
         return err;
     char *label = strdup(r->attrs);
@@ -232,9 +232,9 @@ static enum hm_err read_vertex(struct hm_reader *r, const char *s, const char *e
         return hm_input_fail(&r->in, HM_EFORMAT, d, "expected at least the numbers x y, got 1");
     if (g->columns == 2)
         g->v[2] = NAN;
-    if (!hm_form_good_place(g->v))
-        return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_form_bad_place(g->v));
-    return hm_form_add_vertex(r, g->v, d);
+    if (!hm_reader_good_place(g->v))
+        return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", hm_reader_bad_place(g->v));
+    return hm_reader_add_vertex(r, g->v, d);
 }
 
 static enum hm_err read_line(struct hm_reader *r, struct hm_diag *d)
@@ -256,4 +256,4 @@ static enum hm_err read_line(struct hm_reader *r, struct hm_diag *d)
     return r->ended && r->xyz_n > 0 ? HM_OK : err;
 }
 
-const struct hm_form hm_form_gmt = {.begin = begin, .line = read_line, .free = free_gmt};
+const struct hm_reader_form hm_reader_gmt = {.begin = begin, .line = read_line, .free = free_gmt};

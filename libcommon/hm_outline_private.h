@@ -1,0 +1,43 @@
+/* hm_outline_private: stretches of outline along a gap, and how they end at the higher mesh. Shared
+ * by hm_outline.c, which finds them, and hm_outline_mouth.c, which ties their ends; nobody else's.
+ */
+#ifndef HM_OUTLINE_PRIVATE_H
+#define HM_OUTLINE_PRIVATE_H
+
+#include "hm_outline.h"
+
+/* The lower outline enters or leaves the higher mesh, through an edge of its border. */
+struct hm_crossing {
+    size_t edge;    /* of the higher border */
+    double at;      /* where on it, 0 .. 1; exact at the ends */
+    bool enter;     /* walking the lower outline counter-clockwise */
+    int32_t attach; /* node of the higher mesh where the outline ends instead */
+    int32_t beyond; /* the next node of that border, away from the mouth */
+};
+
+struct hm_stretch {
+    size_t first, count; /* its nodes, of the lower mesh */
+    int64_t from, to;    /* the crossings at its ends; -1: a kept node */
+    bool closed;         /* a whole loop */
+};
+
+struct hm_stretches {
+    struct hm_stretch *stretch;
+    size_t nstretches, stretch_cap;
+    int32_t *node;
+    size_t nnodes, node_cap;
+    struct hm_crossing *crossing;
+    size_t ncrossings, crossing_cap;
+};
+
+/* Give every crossing its attach and beyond. *widened counts the mouths too narrow for two. */
+enum hm_err hm_outline_find_mouths(struct hm_stretches *c, const struct hm_border *higher,
+                                   int64_t *widened, struct hm_diag *d);
+
+/* Which node of the stretch is joined to the attach of its crossing at the end (at_end), or at the
+ * beginning: its number in the stretch, among the `limit` nodes next to that crossing. */
+enum hm_err hm_outline_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                              bool at_end, const struct hm_seam_sides *s, size_t limit,
+                              size_t *node, struct hm_diag *d);
+
+#endif

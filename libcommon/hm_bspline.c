@@ -1,6 +1,5 @@
 #include "hm_bspline.h"
 
-#include "hm_bfringe.h"
 #include "hm_thread.h"
 
 #include <math.h>
@@ -69,49 +68,6 @@ void hm_bspline_weights(int degree, double u, int64_t *first, double w[4], doubl
     *first = (int64_t)start - (degree > 1);
 }
 
-enum hm_err hm_bsurf_init(struct hm_bsurf *s, int degree, size_t n, size_t m, size_t dim,
-                          struct hm_diag *d)
-{
-    *s = (struct hm_bsurf){.degree = degree, .n = n, .m = m, .dim = dim};
-    if (degree < 1 || degree > 3)
-        return hm_fail(d, HM_EARG, "degree %d of a B-spline surface is not 1, 2 or 3", degree);
-    if (n < 2 || m < 2)
-        return hm_fail(d, HM_EARG, "a B-spline surface needs 2 control points in each direction");
-    if (n > PTRDIFF_MAX / 64 || m > PTRDIFF_MAX / 64 / (n + 2) - 2)
-        return hm_fail_memory(d);
-    s->d = hm_alloc0((n + 2) * (m + 2), dim * sizeof *s->d);
-    return s->d ? HM_OK : hm_fail_memory(d);
-}
-
-void hm_bsurf_free(struct hm_bsurf *s)
-{
-    hm_bfringe_free(s->fringe);
-    free(s->d);
-    *s = (struct hm_bsurf){0};
-}
-
-/* ring = 2 * edge - inner */
-static void extrapolate(double *ring, const double *edge, const double *inner, size_t count)
-{
-    for (size_t k = 0; k < count; k++)
-        ring[k] = 2 * edge[k] - inner[k];
-}
-
-void hm_bsurf_extend(struct hm_bsurf *s)
-{
-    int64_t n = (int64_t)s->n, m = (int64_t)s->m;
-    for (int64_t j = 0; j < m; j++) {
-        extrapolate(hm_bsurf_at(s, -1, j), hm_bsurf_at(s, 0, j), hm_bsurf_at(s, 1, j), s->dim);
-        extrapolate(hm_bsurf_at(s, n, j), hm_bsurf_at(s, n - 1, j), hm_bsurf_at(s, n - 2, j),
-                    s->dim);
-    }
-    size_t row = (s->n + 2) * s->dim;
-    extrapolate(hm_bsurf_at(s, -1, -1), hm_bsurf_at(s, -1, 0), hm_bsurf_at(s, -1, 1), row);
-    extrapolate(hm_bsurf_at(s, -1, m), hm_bsurf_at(s, -1, m - 1), hm_bsurf_at(s, -1, m - 2), row);
-    if (s->fringe)
-        hm_bfringe_fill(s);
-}
-
 /* Weights at u; leaves out the last when it is the point behind the ring, where it is 0. */
 static int acting(int degree, double u, size_t n, int64_t *first, double w[4], double dw[4])
 {
@@ -119,8 +75,8 @@ static int acting(int degree, double u, size_t n, int64_t *first, double w[4], d
     return *first + degree > (int64_t)n ? degree : degree + 1;
 }
 
-void hm_bsurf_eval(const struct hm_bsurf *s, double u, double v, double *point, double *du,
-                   double *dv)
+void hm_bspline_eval(const struct hm_bsurf *s, double u, double v, double *point, double *du,
+                     double *dv)
 {
     int64_t i0, j0;
     double wu[4], wv[4], gu[4], gv[4];
@@ -153,7 +109,7 @@ static double side_weight(int degree)
     return degree == 1 ? 0 : degree == 2 ? 1.0 / 8 : 1.0 / 6;
 }
 
-void hm_bsurf_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv)
+void hm_bspline_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv)
 {
     double side = side_weight(s->degree), middle = 1 - 2 * side;
     size_t dim = s->dim, row = (s->n + 2) * dim;
@@ -272,8 +228,8 @@ static double drag_once(struct drag *g, int threads)
     return rest;
 }
 
-enum hm_err hm_bsurf_drag(struct hm_bsurf *s, const double *z, int iterations, int threads,
-                          double *rest, struct hm_diag *d)
+enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations, int threads,
+                            double *rest, struct hm_diag *d)
 {
     struct drag g = {.s = s, .z = z, .side = side_weight(s->degree), .width = s->n * s->dim};
     g.middle = 1 - 2 * g.side;

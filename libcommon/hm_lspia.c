@@ -1,6 +1,5 @@
 #include "hm_lspia.h"
 
-#include "hm_bfringe.h"
 #include "hm_thread.h"
 
 #include <math.h>
@@ -69,7 +68,7 @@ static bool is_covered(const struct hm_bsurf *s, const struct sample *p)
     hm_bspline_weights(s->degree, p->v, &j0, w, NULL);
     for (int64_t j = j0; j <= j0 + s->degree && j <= (int64_t)s->m; j++)
         for (int64_t i = i0; i <= i0 + s->degree && i <= (int64_t)s->n; i++)
-            if (!hm_bfringe_knows(s, i, j))
+            if (!hm_bsurf_knows(s, i, j))
                 return false;
     return true;
 }
@@ -84,7 +83,7 @@ static void find_residuals(void *arg, size_t band)
         if (!is_covered(l->s, p))
             continue;
         double z;
-        hm_bsurf_eval(l->s, p->u, p->v, &z, NULL, NULL);
+        hm_bspline_eval(l->s, p->u, p->v, &z, NULL, NULL);
         p->rest = p->z - z;
         squares += p->rest * p->rest;
         count++;
@@ -135,7 +134,7 @@ static void move_band(void *arg, size_t band)
     for (size_t j = start; j < end; j++)
         for (size_t i = 0; i < s->n; i++) {
             const double *sum = sums + 2 * ((j - start) * s->n + i);
-            if (sum[1] > 0 && hm_bfringe_has_data(s, (int64_t)i, (int64_t)j))
+            if (sum[1] > 0 && hm_bsurf_has_data(s, (int64_t)i, (int64_t)j))
                 *hm_bsurf_at(s, (int64_t)i, (int64_t)j) += sum[0] / sum[1];
         }
     free(sums);

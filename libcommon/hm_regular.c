@@ -218,7 +218,7 @@ static enum hm_err drag_plane(struct plan *p, const struct hm_regular_how *how, 
         }
     double rest = INFINITY, good = 1e-6 * p->rough->size.along;
     for (int round = 0; !err && rest > good && round < 20; round++)
-        err = hm_bsurf_drag(s, p->z, 8, how->threads, &rest, d);
+        err = hm_bspline_drag(s, p->z, 8, how->threads, &rest, d);
     return err;
 }
 
@@ -247,7 +247,7 @@ static void sample_net(void *arg, size_t chunk)
     for (size_t k = chunk * CHUNK; k < end; k++) {
         double *b = p->z + 3 * k;
         double *c = hm_bsurf_at(&p->out->surface, (int64_t)(k % p->n), (int64_t)(k / p->n));
-        hm_bsurf_eval(&p->out->surface, (double)(k % p->n), (double)(k / p->n), b, NULL, NULL);
+        hm_bspline_eval(&p->out->surface, (double)(k % p->n), (double)(k / p->n), b, NULL, NULL);
         b[2] = hm_terrain_z(q->terrain, b[0], b[1], &hint);
         c[2] = hm_terrain_z(q->terrain, c[0], c[1], &hint);
     }
@@ -260,8 +260,8 @@ static void sample_terrain(void *arg, size_t chunk)
     int32_t hint = 0;
     for (size_t k = chunk * CHUNK; k < end; k++) {
         double b[3];
-        hm_bsurf_eval(&q->plan->out->surface, (double)(k % q->na) / SAMPLES,
-                      (double)(k / q->na) / SAMPLES, b, NULL, NULL);
+        hm_bspline_eval(&q->plan->out->surface, (double)(k % q->na) / SAMPLES,
+                        (double)(k / q->na) / SAMPLES, b, NULL, NULL);
         q->z[k] = hm_terrain_z(q->terrain, b[0], b[1], &hint);
     }
 }

@@ -44,8 +44,8 @@ static struct hm_node *node_at(const struct weave *w, size_t i, size_t j)
 static double way(const struct hm_bsurf *s, double u0, double v0, double u1, double v1)
 {
     double a[3], b[3];
-    hm_bsurf_eval(s, u0, v0, a, NULL, NULL);
-    hm_bsurf_eval(s, u1, v1, b, NULL, NULL);
+    hm_bspline_eval(s, u0, v0, a, NULL, NULL);
+    hm_bspline_eval(s, u1, v1, b, NULL, NULL);
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
@@ -90,8 +90,8 @@ static void make_section(void *arg, size_t i)
     struct weave *w = arg;
     for (size_t j = 0; j <= w->nv; j++) {
         double p[3];
-        hm_bsurf_eval(&w->s->surface, parameter_u(w, (double)i), parameter_v(w, (double)j), p, NULL,
-                      NULL);
+        hm_bspline_eval(&w->s->surface, parameter_u(w, (double)i), parameter_v(w, (double)j), p,
+                        NULL, NULL);
         *node_at(w, i, j) = (struct hm_node){.x = p[0],
                                              .y = p[1],
                                              .z = p[2],
@@ -123,8 +123,8 @@ static enum shape choose_diagonal(const struct weave *w, size_t i, size_t j,
     if ((last && right) || (first && left))
         return CUT_BE;
     double p[3];
-    hm_bsurf_eval(&w->s->surface, parameter_u(w, (double)i + 0.5), parameter_v(w, (double)j + 0.5),
-                  p, NULL, NULL);
+    hm_bspline_eval(&w->s->surface, parameter_u(w, (double)i + 0.5),
+                    parameter_v(w, (double)j + 0.5), p, NULL, NULL);
     double ac = fabs((c[0]->z + c[2]->z) / 2 - p[2]), be = fabs((c[1]->z + c[3]->z) / 2 - p[2]);
     if (fabs(ac - be) >= HM_REGULAR_FIT)
         return ac < be ? CUT_AC : CUT_BE;

@@ -1,6 +1,5 @@
 /* bsgrid: points to an analysis grid on a B-spline surface. */
 #include "hm_anchor.h"
-#include "hm_bfringe.h"
 #include "hm_bspline.h"
 #include "hm_cellmean.h"
 #include "hm_cli.h"
@@ -275,7 +274,7 @@ static struct hm_bsurf drag(struct hm_cli *cli, struct survey *s, double *z)
     hm_cli_check(cli, hm_bsurf_init(&b, cmd.degree, nx, ny, 1, &d), &d);
     for (size_t j = 0; j < ny; j++)
         memcpy(hm_bsurf_at(&b, 0, (int64_t)j), z + j * nx, nx * sizeof *z);
-    hm_cli_check(cli, hm_bfringe_declare(&b, z, &d), &d);
+    hm_cli_check(cli, hm_bsurf_set_missing(&b, z, &d), &d);
     if (cmd.fit == FIT_POINTS) {
         to_parameters(s);
         hm_cli_check(cli, hm_lspia(&b, s->xyz, s->n, cmd.iterations, threads, &rest, &d), &d);
@@ -283,7 +282,7 @@ static struct hm_bsurf drag(struct hm_cli *cli, struct survey *s, double *z)
             hm_cli_say(cli, "root mean square of the points' residuals: %.4g m", rest);
     } else {
         double *measure = hm_cli_verbose(cli) ? &rest : NULL;
-        hm_cli_check(cli, hm_bsurf_drag(&b, z, cmd.iterations, threads, measure, &d), &d);
+        hm_cli_check(cli, hm_bspline_drag(&b, z, cmd.iterations, threads, measure, &d), &d);
         if (measure)
             hm_cli_say(cli, "largest distance from the start grid: %.4g m", rest);
     }
@@ -310,9 +309,9 @@ static void begin_grid(struct hm_cli *cli, const struct survey *s)
 /* The surface's slope means something only where the data tell it in both directions. */
 static bool tells_slope(const struct hm_bsurf *b, int64_t i, int64_t j)
 {
-    return hm_bfringe_has_data(b, i, j) &&
-           (hm_bfringe_has_data(b, i - 1, j) || hm_bfringe_has_data(b, i + 1, j)) &&
-           (hm_bfringe_has_data(b, i, j - 1) || hm_bfringe_has_data(b, i, j + 1));
+    return hm_bsurf_has_data(b, i, j) &&
+           (hm_bsurf_has_data(b, i - 1, j) || hm_bsurf_has_data(b, i + 1, j)) &&
+           (hm_bsurf_has_data(b, i, j - 1) || hm_bsurf_has_data(b, i, j + 1));
 }
 
 static void write_grid(struct hm_cli *cli, const struct survey *s, const struct hm_bsurf *b)
@@ -323,10 +322,10 @@ static void write_grid(struct hm_cli *cli, const struct survey *s, const struct 
     double *z = need(cli, 3 * b->n, sizeof *z), *zu = z + b->n, *zv = zu + b->n;
     double *row = need(cli, s->out.nx * bands, sizeof *row);
     for (int64_t j = bottom; j < bottom + (int64_t)s->out.ny; j++) {
-        hm_bsurf_row(b, (size_t)j, z, cmd.derivatives ? zu : NULL, cmd.derivatives ? zv : NULL);
+        hm_bspline_row(b, (size_t)j, z, cmd.derivatives ? zu : NULL, cmd.derivatives ? zv : NULL);
         double *to = row;
         for (int64_t i = left; i < left + (int64_t)s->out.nx; i++) {
-            bool known = hm_bfringe_has_data(b, i, j);
+            bool known = hm_bsurf_has_data(b, i, j);
             *to++ = known ? z[i] : NAN;
             if (cmd.derivatives) {
                 bool tells = tells_slope(b, i, j);

@@ -64,9 +64,9 @@ static struct bank make_bank(double angle)
             start[j * SIZE + i] = height / (1 + exp(-(x * b.nx + y * b.ny) / scale));
             *hm_bsurf_at(&s, i, j) = start[j * SIZE + i];
         }
-    hm_bsurf_drag(&s, start, 1, 1, NULL, NULL);
+    hm_bspline_drag(&s, start, 1, 1, NULL, NULL);
     for (size_t j = 0; j < SIZE; j++)
-        hm_bsurf_row(&s, j, b.z + j * SIZE, NULL, NULL);
+        hm_bspline_row(&s, j, b.z + j * SIZE, NULL, NULL);
     for (size_t j = 0; j < SIZE; j++) {
         const double *const rows[3] = {j > 0 ? b.z + (j - 1) * SIZE : NULL, b.z + j * SIZE,
                                        j + 1 < SIZE ? b.z + (j + 1) * SIZE : NULL};

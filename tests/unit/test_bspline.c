@@ -67,11 +67,11 @@ static void test_interpolation(int degree)
     for (size_t j = 0; j < M; j++)
         for (size_t i = 0; i < N; i++)
             z[j * N + i] = *hm_bsurf_at(&s, (int64_t)i, (int64_t)j) = height(i, j);
-    hm_bsurf_drag(&s, z, 200, 1, &rest, NULL);
+    hm_bspline_drag(&s, z, 200, 1, &rest, NULL);
     for (size_t j = 0; j < M; j++)
         for (size_t i = 0; i < N; i++) {
             double p;
-            hm_bsurf_eval(&s, (double)i, (double)j, &p, NULL, NULL);
+            hm_bspline_eval(&s, (double)i, (double)j, &p, NULL, NULL);
             worst = fmax(worst, fabs(p - z[j * N + i]));
         }
     ok(rest < 1e-12 && worst < 1e-12, "degree %d: dragging converges to interpolation", degree);
@@ -96,7 +96,7 @@ static void test_plane(int degree)
     for (double v = 0; v <= M - 1; v += 0.25)
         for (double u = 0; u <= N - 1; u += 0.25) {
             double p[3], du[3], dv[3];
-            hm_bsurf_eval(&s, u, v, p, du, dv);
+            hm_bspline_eval(&s, u, v, p, du, dv);
             worst = fmax(worst, fabs(p[0] - 2 * u) + fabs(p[1] - 3 * v) + fabs(p[2] - u + 2 * v));
             worst = fmax(worst, fabs(du[0] - 2) + fabs(dv[1] - 3) + fabs(du[2] - 1) +
                                     fabs(dv[2] + 2) + fabs(du[1]) + fabs(dv[0]));
@@ -114,8 +114,8 @@ static void test_spike(int iterations, double keeps)
     z[20 * N + 20] = 1;
     hm_bsurf_init(&s, 2, N, N, 1, NULL);
     *hm_bsurf_at(&s, 20, 20) = 1;
-    hm_bsurf_drag(&s, z, iterations, 1, NULL, NULL);
-    hm_bsurf_eval(&s, 20, 20, &p, NULL, NULL);
+    hm_bspline_drag(&s, z, iterations, 1, NULL, NULL);
+    hm_bspline_eval(&s, 20, 20, &p, NULL, NULL);
     near(p, keeps, 0.005, "a spike's height after dragging");
     hm_bsurf_free(&s);
     free(z);
@@ -132,7 +132,7 @@ static void test_threads(void)
         hm_bsurf_init(&s[t], 2, N, M, 1, NULL);
         for (size_t k = 0; k < (size_t)N * M; k++)
             *hm_bsurf_at(&s[t], (int64_t)(k % N), (int64_t)(k / N)) = isnan(z[k]) ? 1 : z[k];
-        hm_bsurf_drag(&s[t], z, 3, t + 1, NULL, NULL);
+        hm_bspline_drag(&s[t], z, 3, t + 1, NULL, NULL);
     }
     ok(!memcmp(s[0].d, s[1].d, sizeof(double) * (N + 2) * (M + 2)), "two threads: the same bytes");
     ok(*hm_bsurf_at(&s[0], 7, 0) == 1, "a control point without data stays");

@@ -47,8 +47,8 @@ static void sample(const struct hm_bsurf *s, size_t na, size_t nb, double *z)
 {
     for (size_t k = 0; k < na * nb; k++) {
         double p[3];
-        hm_bsurf_eval(s, (double)(k % na) * (double)(s->n - 1) / (double)(na - 1),
-                      (double)(k / na) * (double)(s->m - 1) / (double)(nb - 1), p, NULL, NULL);
+        hm_bspline_eval(s, (double)(k % na) * (double)(s->n - 1) / (double)(na - 1),
+                        (double)(k / na) * (double)(s->m - 1) / (double)(nb - 1), p, NULL, NULL);
         z[k] = p[2];
     }
 }

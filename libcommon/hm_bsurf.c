@@ -1,4 +1,4 @@
-#include "hm_bfringe.h"
+#include "hm_bsurf.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 enum state { MISSING, DATA, FRINGE };
 
-struct hm_bfringe {
+struct hm_bsurf_fringe {
     int8_t *state; /* (n + 2) × (m + 2), ring included */
     size_t *item;  /* positions of the fringe in it, ascending */
     size_t n, cap;
@@ -16,12 +16,39 @@ struct hm_bfringe {
 static const int direction[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                     {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
+enum hm_err hm_bsurf_init(struct hm_bsurf *s, int degree, size_t n, size_t m, size_t dim,
+                          struct hm_diag *d)
+{
+    *s = (struct hm_bsurf){.degree = degree, .n = n, .m = m, .dim = dim};
+    if (degree < 1 || degree > 3)
+        return hm_fail(d, HM_EARG, "degree %d of a B-spline surface is not 1, 2 or 3", degree);
+    if (n < 2 || m < 2)
+        return hm_fail(d, HM_EARG, "a B-spline surface needs 2 control points in each direction");
+    if (n > PTRDIFF_MAX / 64 || m > PTRDIFF_MAX / 64 / (n + 2) - 2)
+        return hm_fail_memory(d);
+    s->d = hm_alloc0((n + 2) * (m + 2), dim * sizeof *s->d);
+    return s->d ? HM_OK : hm_fail_memory(d);
+}
+
+void hm_bsurf_free(struct hm_bsurf *s)
+{
+    if (s->fringe) {
+        free(s->fringe->state);
+        free(s->fringe->item);
+    }
+    free(s->fringe);
+    free(s->d);
+    *s = (struct hm_bsurf){0};
+}
+
+/* --- the fringe --- */
+
 static size_t position(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
     return (size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1);
 }
 
-bool hm_bfringe_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
+bool hm_bsurf_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
     return i >= 0 && j >= 0 && i < (int64_t)s->n && j < (int64_t)s->m &&
            (!s->fringe || s->fringe->state[position(s, i, j)] == DATA);
@@ -30,14 +57,14 @@ bool hm_bfringe_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
 static bool is_beside_data(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
     for (int k = 0; k < 8; k++)
-        if (hm_bfringe_has_data(s, i + direction[k][0], j + direction[k][1]))
+        if (hm_bsurf_has_data(s, i + direction[k][0], j + direction[k][1]))
             return true;
     return false;
 }
 
 static enum hm_err find_fringe(const struct hm_bsurf *s, struct hm_diag *d)
 {
-    struct hm_bfringe *f = s->fringe;
+    struct hm_bsurf_fringe *f = s->fringe;
     for (int64_t j = -1; j <= (int64_t)s->m; j++)
         for (int64_t i = -1; i <= (int64_t)s->n; i++) {
             size_t at = position(s, i, j);
@@ -51,7 +78,7 @@ static enum hm_err find_fringe(const struct hm_bsurf *s, struct hm_diag *d)
     return HM_OK;
 }
 
-enum hm_err hm_bfringe_declare(struct hm_bsurf *s, const double *z, struct hm_diag *d)
+enum hm_err hm_bsurf_set_missing(struct hm_bsurf *s, const double *z, struct hm_diag *d)
 {
     size_t k = 0, nodes = s->n * s->m;
     while (k < nodes && !isnan(z[k]))
@@ -70,16 +97,7 @@ enum hm_err hm_bfringe_declare(struct hm_bsurf *s, const double *z, struct hm_di
     return find_fringe(s, d);
 }
 
-void hm_bfringe_free(struct hm_bfringe *f)
-{
-    if (!f)
-        return;
-    free(f->state);
-    free(f->item);
-    free(f);
-}
-
-bool hm_bfringe_knows(const struct hm_bsurf *s, int64_t i, int64_t j)
+bool hm_bsurf_knows(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
     return !s->fringe || s->fringe->state[position(s, i, j)] != MISSING;
 }
@@ -93,8 +111,7 @@ static bool by_lines(const struct hm_bsurf *s, int64_t i, int64_t j, int first, 
     int n = 0;
     for (int k = first; k < first + 4; k++) {
         int di = direction[k][0], dj = direction[k][1];
-        if (!hm_bfringe_has_data(s, i + di, j + dj) ||
-            !hm_bfringe_has_data(s, i + 2 * di, j + 2 * dj))
+        if (!hm_bsurf_has_data(s, i + di, j + dj) || !hm_bsurf_has_data(s, i + 2 * di, j + 2 * dj))
             continue;
         sum += 2 * hm_bsurf_at(s, i + di, j + dj)[c] - hm_bsurf_at(s, i + 2 * di, j + 2 * dj)[c];
         n++;
@@ -110,7 +127,7 @@ static double by_plane(const struct hm_bsurf *s, int64_t i, int64_t j, size_t c)
     double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
     for (int dj = -2; dj <= 2; dj++)
         for (int di = -2; di <= 2; di++) {
-            if (!hm_bfringe_has_data(s, i + di, j + dj))
+            if (!hm_bsurf_has_data(s, i + di, j + dj))
                 continue;
             double v = hm_bsurf_at(s, i + di, j + dj)[c];
             n += 1, x += di, y += dj, z += v;
@@ -124,9 +141,9 @@ static double by_plane(const struct hm_bsurf *s, int64_t i, int64_t j, size_t c)
     return z - x * (xz * yy - yz * xy) / det - y * (yz * xx - xz * xy) / det;
 }
 
-void hm_bfringe_fill(const struct hm_bsurf *s)
+static void fill_fringe(const struct hm_bsurf *s)
 {
-    const struct hm_bfringe *f = s->fringe;
+    const struct hm_bsurf_fringe *f = s->fringe;
     for (size_t k = 0; k < f->n; k++) {
         int64_t i = (int64_t)(f->item[k] % (s->n + 2)) - 1;
         int64_t j = (int64_t)(f->item[k] / (s->n + 2)) - 1;
@@ -135,4 +152,28 @@ void hm_bfringe_fill(const struct hm_bsurf *s)
             if (!by_lines(s, i, j, 0, c, &d[c]) && !by_lines(s, i, j, 4, c, &d[c]))
                 d[c] = by_plane(s, i, j, c);
     }
+}
+
+/* --- the ring --- */
+
+/* ring = 2 * edge - inner */
+static void extrapolate(double *ring, const double *edge, const double *inner, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        ring[k] = 2 * edge[k] - inner[k];
+}
+
+void hm_bsurf_extend(struct hm_bsurf *s)
+{
+    int64_t n = (int64_t)s->n, m = (int64_t)s->m;
+    for (int64_t j = 0; j < m; j++) {
+        extrapolate(hm_bsurf_at(s, -1, j), hm_bsurf_at(s, 0, j), hm_bsurf_at(s, 1, j), s->dim);
+        extrapolate(hm_bsurf_at(s, n, j), hm_bsurf_at(s, n - 1, j), hm_bsurf_at(s, n - 2, j),
+                    s->dim);
+    }
+    size_t row = (s->n + 2) * s->dim;
+    extrapolate(hm_bsurf_at(s, -1, -1), hm_bsurf_at(s, -1, 0), hm_bsurf_at(s, -1, 1), row);
+    extrapolate(hm_bsurf_at(s, -1, m), hm_bsurf_at(s, -1, m - 1), hm_bsurf_at(s, -1, m - 2), row);
+    if (s->fringe)
+        fill_fringe(s);
 }

@@ -1,5 +1,7 @@
 #include "hm_boxtree.h"
 
+#include "hm_order.h"
+
 #include <stdlib.h>
 
 enum { FAN = 8, MOST_LEVELS = 12 }; /* 8^11 > INT32_MAX */
@@ -11,61 +13,23 @@ struct hm_boxtree {
     int32_t *item;                   /* number of each box of level 0 */
 };
 
-/* Distance along the Hilbert curve through a 65,536 × 65,536 lattice: of each quadrant from
- * the coarsest its rank, then the quadrant turned so that the next finer curve runs through it. */
-static uint32_t hilbert(uint32_t x, uint32_t y)
+/* Numbers of the boxes in the order of their centres along the curve. */
+static enum hm_err sort_items(int32_t *item, const struct hm_box *box, size_t n, struct hm_diag *d)
 {
-    uint32_t distance = 0;
-    for (uint32_t s = 1u << 15; s > 0; s >>= 1) {
-        uint32_t rx = (x & s) != 0, ry = (y & s) != 0;
-        distance += s * s * ((3 * rx) ^ ry);
-        if (!ry) {
-            if (rx) {
-                x = ~x;
-                y = ~y;
-            }
-            uint32_t swap = x;
-            x = y;
-            y = swap;
-        }
+    double *centre = hm_alloc(n, 2 * sizeof *centre);
+    struct hm_order_item *order = hm_alloc(n, 2 * sizeof *order); /* and room to sort */
+    enum hm_err err = centre && order ? HM_OK : hm_fail_memory(d);
+    if (!err) {
+        for (size_t i = 0; i < n; i++)
+            for (int k = 0; k < 2; k++)
+                centre[2 * i + (size_t)k] = box[i].lo[k] / 2 + box[i].hi[k] / 2;
+        err = hm_order_sort(centre, n, 2, HM_ORDER_COARSE, 1, order, order + n, d);
     }
-    return distance;
-}
-
-static int by_value(const void *pa, const void *pb)
-{
-    uint64_t a = *(const uint64_t *)pa, b = *(const uint64_t *)pb;
-    return (a > b) - (a < b);
-}
-
-static uint32_t lattice(double value, double lo, double hi)
-{
-    double part = (value - lo) / (hi - lo); /* NaN when all is in one place or too far apart */
-    return part > 0 ? (uint32_t)(part * 65535) : 0;
-}
-
-/* Numbers of the boxes in curve order. */
-static bool sort_items(int32_t *item, const struct hm_box *box, size_t n)
-{
-    uint64_t *key = hm_alloc(n, sizeof *key);
-    if (!key)
-        return false;
-    struct hm_box all = box[0];
-    for (size_t i = 1; i < n; i++) {
-        hm_box_add(&all, box[i].lo);
-        hm_box_add(&all, box[i].hi);
-    }
-    for (size_t i = 0; i < n; i++) {
-        uint32_t at[2];
-        for (int k = 0; k < 2; k++)
-            at[k] = lattice((box[i].lo[k] / 2 + box[i].hi[k] / 2), all.lo[k], all.hi[k]);
-        key[i] = (uint64_t)hilbert(at[0], at[1]) << 32 | i;
-    }
-    qsort(key, n, sizeof *key, by_value);
-    for (size_t i = 0; i < n; i++)
-        item[i] = (int32_t)(key[i] & UINT32_MAX);
-    free(key);
-    return true;
+    for (size_t i = 0; !err && i < n; i++)
+        item[i] = (int32_t)order[i].index;
+    free(centre);
+    free(order);
+    return err;
 }
 
 /* The nodes of a level from those of the level below. */
@@ -97,9 +61,10 @@ enum hm_err hm_boxtree_build(struct hm_boxtree **tree, const struct hm_box *box,
     }
     t->item = hm_alloc(n, sizeof *t->item);
     t->box[0] = hm_alloc(total, sizeof *t->box[0]);
-    if (!t->item || !t->box[0] || (n > 0 && !sort_items(t->item, box, n))) {
+    enum hm_err err = t->item && t->box[0] ? sort_items(t->item, box, n, d) : hm_fail_memory(d);
+    if (err) {
         hm_boxtree_free(t);
-        return hm_fail_memory(d);
+        return err;
     }
     for (size_t i = 0; i < n; i++)
         t->box[0][i] = box[t->item[i]];

@@ -1,8 +1,8 @@
 /* hm_boxtree: which of many boxes meet a given one. Layer 1.
  *
- * A packed tree: the boxes in the order of a Hilbert curve, eight to a node, eight nodes to the
- * next. Unlike a bucket grid it does not mind elements of very different size. Read-only once
- * built: threads may share it.
+ * A packed tree: the boxes in the order of a space-filling curve (hm_order), eight to a node, eight
+ * nodes to the next. Unlike a bucket grid it does not mind elements of very different size.
+ * Read-only once built: threads may share it.
  */
 #ifndef HM_BOXTREE_H
 #define HM_BOXTREE_H

@@ -83,7 +83,9 @@ static int64_t new_line(struct hm_chain *c, struct hm_joint *begin, struct hm_jo
     return l;
 }
 
-static enum hm_err append(struct hm_chain *c, int64_t line, const double *xyz, struct hm_diag *d)
+/* A new vertex, unless it is NULL, at the end of a line or at its beginning. */
+static enum hm_err add_vertex(struct hm_chain *c, int64_t line, bool at_end, const double *xyz,
+                              struct hm_diag *d)
 {
     if (!xyz)
         return HM_OK;
@@ -91,28 +93,15 @@ static enum hm_err append(struct hm_chain *c, int64_t line, const double *xyz, s
     if (v == NOTHING)
         return hm_fail_memory(d);
     struct open_line *l = &c->line[line];
-    if (l->last == NOTHING)
-        l->first = v;
-    else
+    if (l->n++ == 0) {
+        l->first = l->last = v;
+    } else if (at_end) {
         c->vertex[l->last].next = v;
-    l->last = v;
-    l->n++;
-    return HM_OK;
-}
-
-static enum hm_err prepend(struct hm_chain *c, int64_t line, const double *xyz, struct hm_diag *d)
-{
-    if (!xyz)
-        return HM_OK;
-    int64_t v = new_vertex(c, xyz);
-    if (v == NOTHING)
-        return hm_fail_memory(d);
-    struct open_line *l = &c->line[line];
-    c->vertex[v].next = l->first;
-    if (l->last == NOTHING)
         l->last = v;
-    l->first = v;
-    l->n++;
+    } else {
+        c->vertex[v].next = l->first;
+        l->first = v;
+    }
     return HM_OK;
 }
 
@@ -165,7 +154,7 @@ static enum hm_err begin_line(struct hm_chain *c, struct hm_joint *from, struct 
     to->ending = line;
     enum hm_err err = HM_OK;
     for (int k = 0; k < 3 && !err; k++)
-        err = append(c, line, vertex[k], d);
+        err = add_vertex(c, line, true, vertex[k], d);
     return err;
 }
 
@@ -181,17 +170,17 @@ enum hm_err hm_chain_add(struct hm_chain *c, struct hm_joint *from, struct hm_jo
         to->beginning = HM_JOINT_FREE;
         from->beginning = behind;
         c->line[behind].begin = from;
-        err = prepend(c, behind, middle, d);
-        return err ? err : prepend(c, behind, start, d);
+        err = add_vertex(c, behind, false, middle, d);
+        return err ? err : add_vertex(c, behind, false, start, d);
     }
     from->ending = HM_JOINT_FREE;
-    err = append(c, before, middle, d);
+    err = add_vertex(c, before, true, middle, d);
     if (err)
         return err;
     if (behind == HM_JOINT_FREE) {
         to->ending = before;
         c->line[before].end = to;
-        return append(c, before, end, d);
+        return add_vertex(c, before, true, end, d);
     }
     to->beginning = HM_JOINT_FREE;
     if (before == behind)

@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-/* Part of the way from a to b at which the foot of p lies, held to 0 .. 1. */
-static double foot(const double *p, const double *a, const double *b)
+double hm_plane_foot(const double *p, const double *a, const double *b)
 {
     double ux = b[0] - a[0], uy = b[1] - a[1];
     double length2 = ux * ux + uy * uy;
@@ -15,7 +14,7 @@ static double foot(const double *p, const double *a, const double *b)
 
 double hm_plane_distance(const double *p, const double *a, const double *b)
 {
-    double t = foot(p, a, b);
+    double t = hm_plane_foot(p, a, b);
     return hypot(a[0] + t * (b[0] - a[0]) - p[0], a[1] + t * (b[1] - a[1]) - p[1]);
 }
 
@@ -28,7 +27,7 @@ double hm_plane_gap(const double *a, const double *b, const double *c, const dou
         return 0;
     for (int i = 0; i < 4; i++) { /* the nearest place to one is an end of the other */
         const double *p = end[i][0], *from = end[i][1], *to = end[i][2];
-        double distance = hm_plane_distance(p, from, to), t = foot(p, from, to);
+        double distance = hm_plane_distance(p, from, to), t = hm_plane_foot(p, from, to);
         if (distance >= least)
             continue;
         least = distance;
@@ -56,6 +55,32 @@ bool hm_plane_meet(const double *a, const double *b, const double *c, const doub
              (cd_a < 0 && cd_b < 0));
 }
 
+/* For p on the line through a and b: is it between them? */
+static bool is_between(const double *p, const double *a, const double *b)
+{
+    return intervals_meet(p, p, a, b, 0) && intervals_meet(p, p, a, b, 1);
+}
+
+bool hm_plane_meet_at(const double *a, const double *b, const double *c, const double *d,
+                      double place[2])
+{
+    if (!hm_plane_meet(a, b, c, d))
+        return false;
+    const double *end[4][3] = {{c, a, b}, {d, a, b}, {a, c, d}, {b, c, d}};
+    for (int i = 0; i < 4; i++) { /* where one touches the other its end is exact */
+        const double *p = end[i][0], *from = end[i][1], *to = end[i][2];
+        if (hm_pred_orient(from, to, p) == 0 && is_between(p, from, to)) {
+            place[0] = p[0];
+            place[1] = p[1];
+            return true;
+        }
+    }
+    double t = hm_plane_meeting(a, b, c, d);
+    for (int k = 0; k < 2; k++)
+        place[k] = a[k] + t * (b[k] - a[k]);
+    return true;
+}
+
 bool hm_plane_cross(const double *a, const double *b, const double *c, const double *d)
 {
     int ab_c = hm_pred_orient(a, b, c), ab_d = hm_pred_orient(a, b, d);
@@ -69,7 +94,9 @@ double hm_plane_meeting(const double *a, const double *b, const double *c, const
 {
     int cd_a = hm_pred_orient(c, d, a), cd_b = hm_pred_orient(c, d, b);
     if (cd_a == 0 && cd_b == 0)
-        return hm_plane_distance(a, c, d) == 0 ? 0 : fmin(foot(c, a, b), foot(d, a, b));
+        return hm_plane_distance(a, c, d) == 0
+                   ? 0
+                   : fmin(hm_plane_foot(c, a, b), hm_plane_foot(d, a, b));
     if (cd_a == 0)
         return 0;
     if (cd_b == 0)

@@ -4,6 +4,10 @@
 
 #include "hm_base.h"
 
+/* The place on the segment a–b nearest to p, as a part of the way from a to b, 0 .. 1; 0 for a
+ * segment of no length. */
+double hm_plane_foot(const double *p, const double *a, const double *b);
+
 /* Distance of p from the segment a–b. */
 double hm_plane_distance(const double *p, const double *a, const double *b);
 
@@ -14,6 +18,10 @@ double hm_plane_gap(const double *a, const double *b, const double *c, const dou
 
 /* Have the segments a–b and c–d a point in common, exactly? Ends count. */
 bool hm_plane_meet(const double *a, const double *b, const double *c, const double *d);
+
+/* The same; when they have, `place` gets one (rounded): an end where one touches the other. */
+bool hm_plane_meet_at(const double *a, const double *b, const double *c, const double *d,
+                      double place[2]);
 
 /* Do they cross, each with an end on both sides of the other, exactly? */
 bool hm_plane_cross(const double *a, const double *b, const double *c, const double *d);

@@ -1,5 +1,6 @@
 #include "hm_polyline.h"
 
+#include "hm_plane.h"
 #include "hm_pred.h"
 #include "hm_segindex.h"
 
@@ -167,7 +168,7 @@ static bool meets_other(void *arg, const struct hm_segment *other)
         m->found = (follows && folds_back(self, other, m->xy)) ||
                    (around && folds_back(other, self, m->xy));
     } else {
-        m->found = hm_segment_meet(self->a, self->b, other->a, other->b, m->xy);
+        m->found = hm_plane_meet_at(self->a, self->b, other->a, other->b, m->xy);
     }
     return !m->found;
 }

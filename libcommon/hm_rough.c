@@ -2,9 +2,9 @@
 
 #include "hm_attr.h"
 #include "hm_num.h"
+#include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_role.h"
-#include "hm_segindex.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -273,9 +273,7 @@ static enum hm_err outline(const struct hm_rough *r, struct hm_line *ring, struc
 static bool touches(const struct hm_line *line, const double xy[2], double near)
 {
     for (size_t k = 0; k < hm_polyline_pieces(line); k++) {
-        const double *a = hm_polyline_from(line, k), *b = hm_polyline_to(line, k);
-        double t = hm_segment_project(a, b, xy[0], xy[1]);
-        if (hypot(a[0] + t * (b[0] - a[0]) - xy[0], a[1] + t * (b[1] - a[1]) - xy[1]) <= near)
+        if (hm_plane_distance(xy, hm_polyline_from(line, k), hm_polyline_to(line, k)) <= near)
             return true;
     }
     return false;

@@ -2,6 +2,7 @@
 
 #include "hm_elem.h"
 #include "hm_plane.h"
+#include "hm_pred.h"
 #include "hm_tri.h"
 
 #include <math.h>
@@ -221,11 +222,12 @@ static void centre(const struct hm_tri *t, int32_t k, double xy[2])
     xy[1] = a[1] + ((b[1] - a[1]) + (c[1] - a[1])) / 3;
 }
 
+/* Twice its area. */
 static double area_of(const struct hm_tri *t, int32_t k)
 {
-    const double *a = hm_tri_xy(t, hm_tri_org(t, 3 * k)), *b = hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
-                 *c = hm_tri_xy(t, hm_tri_apex(t, 3 * k));
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    int32_t e = 3 * k;
+    return hm_area2(hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e)),
+                    hm_tri_xy(t, hm_tri_apex(t, e)));
 }
 
 /* Regions of triangles between constraints, numbered from 2; what hangs together with the outside

@@ -1,5 +1,6 @@
 #include "hm_segindex.h"
 
+#include "hm_plane.h"
 #include "hm_pred.h"
 
 #include <math.h>
@@ -17,58 +18,6 @@ struct hm_segindex {
     size_t *start; /* bucket k = j*nx + i holds item[start[k]] .. item[start[k+1] - 1] */
     int32_t *item; /* numbers of segments, ascending in each bucket */
 };
-
-/* --- segments --- */
-
-double hm_segment_project(const double *a, const double *b, double x, double y)
-{
-    double ux = b[0] - a[0], uy = b[1] - a[1];
-    double length2 = ux * ux + uy * uy;
-    if (!(length2 > 0))
-        return 0;
-    double t = ((x - a[0]) * ux + (y - a[1]) * uy) / length2;
-    return t <= 0 ? 0 : t >= 1 ? 1 : t;
-}
-
-static void foot_at(const struct hm_segment *s, double t, double foot[3])
-{
-    for (int k = 0; k < 3; k++)
-        foot[k] = t <= 0 ? s->a[k] : t >= 1 ? s->b[k] : s->a[k] + t * (s->b[k] - s->a[k]);
-}
-
-static bool between(const double *a, const double *b, const double *p)
-{
-    return fmin(a[0], b[0]) <= p[0] && p[0] <= fmax(a[0], b[0]) && fmin(a[1], b[1]) <= p[1] &&
-           p[1] <= fmax(a[1], b[1]);
-}
-
-bool hm_segment_meet(const double *a, const double *b, const double *c, const double *d,
-                     double xy[2])
-{
-    int abc = hm_pred_orient(a, b, c), abd = hm_pred_orient(a, b, d);
-    int cda = hm_pred_orient(c, d, a), cdb = hm_pred_orient(c, d, b);
-    const double *touch = NULL;
-    if (abc == 0 && between(a, b, c))
-        touch = c;
-    else if (abd == 0 && between(a, b, d))
-        touch = d;
-    else if (cda == 0 && between(c, d, a))
-        touch = a;
-    else if (cdb == 0 && between(c, d, b))
-        touch = b;
-    if (touch) {
-        xy[0] = touch[0];
-        xy[1] = touch[1];
-        return true;
-    }
-    if (abc * abd >= 0 || cda * cdb >= 0)
-        return false;
-    double p = fabs(hm_area2(c, d, a)), q = fabs(hm_area2(c, d, b));
-    double t = p + q > 0 ? p / (p + q) : 0.5;
-    xy[0] = a[0] + t * (b[0] - a[0]);
-    xy[1] = a[1] + t * (b[1] - a[1]);
-    return true;
-}
 
 /* --- building --- */
 
@@ -220,12 +169,18 @@ struct nearest {
     double t;
 };
 
+static void foot_at(const struct hm_segment *s, double t, double foot[3])
+{
+    for (int k = 0; k < 3; k++)
+        foot[k] = t <= 0 ? s->a[k] : t >= 1 ? s->b[k] : s->a[k] + t * (s->b[k] - s->a[k]);
+}
+
 static void try_bucket(const struct hm_segindex *x, int64_t i, int64_t j, struct nearest *q)
 {
     size_t bucket = (size_t)(j * x->nx + i);
     for (size_t k = x->start[bucket]; k < x->start[bucket + 1]; k++) {
         const struct hm_segment *s = &x->s[x->item[k]];
-        double t = hm_segment_project(s->a, s->b, q->x, q->y), foot[3];
+        double t = hm_plane_foot((const double[]){q->x, q->y}, s->a, s->b), foot[3];
         foot_at(s, t, foot);
         double dx = foot[0] - q->x, dy = foot[1] - q->y, d2 = dx * dx + dy * dy;
         if (d2 < q->best2 || (d2 == q->best2 && (q->item < 0 || x->item[k] < q->item))) {

@@ -33,13 +33,4 @@ const struct hm_segment *hm_segindex_nearest(const struct hm_segindex *x, double
 void hm_segindex_box(const struct hm_segindex *x, const double lo[2], const double hi[2],
                      bool (*visit)(void *arg, const struct hm_segment *s), void *arg);
 
-/* The place on segment a b (2 or 3 doubles each; only x and y count) nearest to (x, y), as the part
- * 0 .. 1 of the way from a to b; 0 for a segment of no length. */
-double hm_segment_project(const double *a, const double *b, double x, double y);
-
-/* Do the closed segments a b and c d (x, y) have a point in common? Exact. When they do, xy gets
- * one (rounded); of segments on one line, an end point. */
-bool hm_segment_meet(const double *a, const double *b, const double *c, const double *d,
-                     double xy[2]);
-
 #endif

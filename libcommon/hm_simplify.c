@@ -1,5 +1,6 @@
 #include "hm_simplify.h"
 
+#include "hm_plane.h"
 #include "hm_pred.h"
 
 #include <math.h>
@@ -151,14 +152,6 @@ static bool is_blocked(const struct work *w, int64_t v)
 
 /* --- cost --- */
 
-static double distance_to_piece(const double *p, const double *a, const double *b)
-{
-    double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-    double t = length2 > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length2 : 0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-}
-
 /* Largest distance from the vertices that the line had between a and c to the piece a–c. */
 static double cost_of(const struct work *w, int64_t a, int64_t c)
 {
@@ -166,7 +159,7 @@ static double cost_of(const struct work *w, int64_t a, int64_t c)
     double most = 0;
     for (size_t k = ((size_t)a - start + 1) % n; k != (size_t)c - start; k = (k + 1) % n) {
         double away =
-            distance_to_piece(w->vertex[start + k].xyz, w->vertex[a].xyz, w->vertex[c].xyz);
+            hm_plane_distance(w->vertex[start + k].xyz, w->vertex[a].xyz, w->vertex[c].xyz);
         most = away > most ? away : most;
     }
     return most;

@@ -1,5 +1,6 @@
 #include "hm_snap.h"
 
+#include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_role.h"
 #include "hm_segindex.h"
@@ -225,7 +226,7 @@ static bool try_segment(void *arg, const struct hm_segment *s)
 {
     struct search *q = arg;
     const double *p = rough(q->fit, q->i);
-    double part = q->axis ? cut_by_axis(s, p, q->axis) : hm_segment_project(s->a, s->b, p[0], p[1]);
+    double part = q->axis ? cut_by_axis(s, p, q->axis) : hm_plane_foot(p, s->a, s->b);
     if (part < 0)
         return true;
     struct target t = {.line = s->line};

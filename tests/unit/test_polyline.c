@@ -1,4 +1,5 @@
 /* Polylines and the segment index, against counting by hand and against looking at everything. */
+#include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_pred.h"
 #include "hm_segindex.h"
@@ -146,7 +147,7 @@ static const struct hm_segment *look(const struct hm_segment *s, double x, doubl
     const struct hm_segment *best = NULL;
     *distance = INFINITY;
     for (int i = 0; i < SEGMENTS; i++) {
-        double t = hm_segment_project(s[i].a, s[i].b, x, y);
+        double t = hm_plane_foot((const double[]){x, y}, s[i].a, s[i].b);
         double r = hypot(s[i].a[0] + t * (s[i].b[0] - s[i].a[0]) - x,
                          s[i].a[1] + t * (s[i].b[1] - s[i].a[1]) - y);
         if (r <= reach && r < *distance) {
@@ -195,7 +196,7 @@ static bool in_box(const struct hm_segment *s, const double lo[2], const double 
     if (a[0] >= lo[0] && a[0] <= hi[0] && a[1] >= lo[1] && a[1] <= hi[1])
         return true;
     for (int k = 0; k < 4; k++)
-        if (hm_segment_meet(a, b, corner[k], corner[k + 1], xy))
+        if (hm_plane_meet_at(a, b, corner[k], corner[k + 1], xy))
             return true;
     return false;
 }
@@ -247,12 +248,12 @@ static void test_meet(void)
 {
     double a[] = {0, 0}, b[] = {4, 0}, c[] = {2, 1}, e[] = {2, 0}, f[] = {9, 0}, g[] = {5, 0};
     double up[] = {2, -3}, xy[2];
-    ok(hm_segment_meet(a, b, c, up, xy) && xy[0] == 2 && xy[1] == 0, "crossing");
-    ok(hm_segment_meet(a, b, c, e, xy), "touching from the side");
-    ok(hm_segment_meet(a, b, e, f, xy), "overlapping on a line");
-    ok(!hm_segment_meet(a, b, g, f, xy), "apart on a line");
-    ok(!hm_segment_meet(a, b, c, f, xy), "apart");
-    ok(hm_segment_meet(e, e, a, b, xy) && !hm_segment_meet(c, c, a, b, xy),
+    ok(hm_plane_meet_at(a, b, c, up, xy) && xy[0] == 2 && xy[1] == 0, "crossing");
+    ok(hm_plane_meet_at(a, b, c, e, xy), "touching from the side");
+    ok(hm_plane_meet_at(a, b, e, f, xy), "overlapping on a line");
+    ok(!hm_plane_meet_at(a, b, g, f, xy), "apart on a line");
+    ok(!hm_plane_meet_at(a, b, c, f, xy), "apart");
+    ok(hm_plane_meet_at(e, e, a, b, xy) && !hm_plane_meet_at(c, c, a, b, xy),
        "a point and a segment");
 }
 

@@ -288,6 +288,21 @@ const char *hm_num_parse(const char *s, const char *end, double *value)
     return p;
 }
 
+size_t hm_num_parse_list(const char *s, char separator, double *value, size_t room)
+{
+    const char *end = s + strlen(s);
+    for (size_t n = 0; n < room; s++) {
+        s = hm_num_parse(s, end, &value[n]);
+        if (!s || !isfinite(value[n++]))
+            return 0;
+        if (s == end)
+            return n;
+        if (*s != separator)
+            return 0;
+    }
+    return 0;
+}
+
 /* --- writing --- */
 
 /* digits * 10^exponent, without trailing zeros */

@@ -12,6 +12,10 @@ enum { HM_NUM_CHARS = 40 }; /* room that hm_num_print and hm_num_print_fixed nee
  * *value untouched, when there is none. Beyond the range of double: ±inf or ±0, as strtod. */
 const char *hm_num_parse(const char *s, const char *end, double *value);
 
+/* The numbers of a whole string, `separator` between them, to value[0 .. room). Returns how many; 0
+ * when it is no such list, one of them is not finite, or there are more. */
+size_t hm_num_parse_list(const char *s, char separator, double *value, size_t room);
+
 /* Write v as the shortest decimal that reads back to the same double (the nearest to v among them),
  * without a terminating 0: 12.5, -0.001, 1e+300, nan, inf; -0 keeps its sign. Plain notation for
  * magnitudes in 1e-5 .. 1e16. Returns the number of characters, less than HM_NUM_CHARS. */

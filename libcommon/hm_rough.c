@@ -26,27 +26,20 @@ static bool parse_length(const char **text, double *value)
 
 static enum hm_err parse_fractions(const char *text, struct hm_rough_size *size, struct hm_diag *d)
 {
-    const char *p = text, *end = text + strlen(text);
-    double before = -1;
-    for (size_t n = 0; n < HM_ROUGH_FRACTIONS; n++) {
-        double f;
-        p = hm_num_parse(p, end, &f);
-        if (!p || !(f > before) || !(f <= 1) || (n == 0 && f != 0) || (*p && *p != ','))
-            break;
-        size->fraction[n] = before = f;
-        if (!*p) {
-            if (f != 1)
-                break;
-            size->nfractions = n + 1;
-            size->across = 0;
-            return HM_OK;
-        }
-        p++;
-    }
-    return hm_fail(d, HM_EFORMAT,
-                   "fractions across '%s' do not rise from 0 to 1, as in 0,.1,.3,.7,.9,1 (at most "
-                   "%d of them)",
-                   text, HM_ROUGH_FRACTIONS);
+    double f[HM_ROUGH_FRACTIONS];
+    size_t n = hm_num_parse_list(text, ',', f, HM_ROUGH_FRACTIONS);
+    bool good = n > 1 && f[0] == 0 && f[n - 1] == 1;
+    for (size_t k = 1; good && k < n; k++)
+        good = f[k] > f[k - 1];
+    if (!good)
+        return hm_fail(d, HM_EFORMAT,
+                       "fractions across '%s' do not rise from 0 to 1, as in 0,.1,.3,.7,.9,1 (at "
+                       "most %d of them)",
+                       text, HM_ROUGH_FRACTIONS);
+    memcpy(size->fraction, f, n * sizeof *f);
+    size->nfractions = n;
+    size->across = 0;
+    return HM_OK;
 }
 
 enum hm_err hm_rough_parse_across(const char *text, struct hm_rough_size *size, struct hm_diag *d)
@@ -78,19 +71,13 @@ enum hm_err hm_rough_parse_control(const char *text, struct hm_rough_size *size,
 
 enum hm_err hm_rough_parse_elements(const char *text, struct hm_rough_size *size, struct hm_diag *d)
 {
-    const char *p = text;
-    double along, across;
-    bool good = parse_length(&p, &along);
-    across = along;
-    if (good && *p == '/') {
-        p++;
-        good = parse_length(&p, &across);
-    }
-    if (!good || *p)
+    double length[2];
+    size_t n = hm_num_parse_list(text, '/', length, 2);
+    if (n == 0 || !(length[0] > 0) || !(length[n - 1] > 0))
         return hm_fail(d, HM_EFORMAT, "'%s' is no length of elements ALONG/ACROSS, as in 8/3",
                        text);
-    size->elem_along = along;
-    size->elem_across = across;
+    size->elem_along = length[0];
+    size->elem_across = length[n - 1];
     return HM_OK;
 }
 

@@ -68,33 +68,17 @@ struct survey {
 
 /* --- what the user asked --- */
 
-/* Numbers between separators, `count` at most; the number of them, or -1. */
-static int parse_numbers(const char *s, char separator, double *value, int count)
-{
-    const char *end = s + strlen(s);
-    for (int k = 0; k < count; k++) {
-        s = hm_num_parse(s, end, &value[k]);
-        if (!s || !isfinite(value[k]))
-            return -1;
-        if (s == end)
-            return k + 1;
-        if (*s++ != separator)
-            return -1;
-    }
-    return -1;
-}
-
 static void parse_classes(struct hm_cli *cli, struct survey *s)
 {
     double value[CLASSES];
-    int n = parse_numbers(cmd.classes, ',', value, CLASSES);
-    for (int k = 0; k < n; k++) {
-        if (!(value[k] >= 0 && value[k] < CLASSES && value[k] == floor(value[k])))
-            n = -1;
-        else
+    size_t n = hm_num_parse_list(cmd.classes, ',', value, CLASSES);
+    bool good = n > 0;
+    for (size_t k = 0; good && k < n; k++) {
+        good = value[k] >= 0 && value[k] < CLASSES && value[k] == floor(value[k]);
+        if (good)
             s->wanted[(int)value[k]] = true;
     }
-    if (n < 1)
+    if (!good)
         hm_cli_die(cli, "-c: classes are numbers from 0 to 255, as in 2,9; got '%s'", cmd.classes);
 }
 
@@ -102,7 +86,7 @@ static void parse_region(struct hm_cli *cli, struct survey *s)
 {
     double *w = s->window;
     struct hm_diag d = {0};
-    if (parse_numbers(cmd.region, '/', w, 4) != 4 || w[0] > w[1] || w[2] > w[3])
+    if (hm_num_parse_list(cmd.region, '/', w, 4) != 4 || w[0] > w[1] || w[2] > w[3])
         hm_cli_die(cli, "-R: a window is west/east/south/north; got '%s'", cmd.region);
     hm_cli_check(cli, hm_anchor_within(&s->out, cmd.spacing, w, &d), &d);
     s->has_window = true;

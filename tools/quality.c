@@ -69,15 +69,12 @@ static void abandon_residuals(void)
 static size_t parse_list(struct hm_cli *cli, const char *option, const char *text, double most,
                          double *list, size_t room)
 {
-    const char *p = text, *end = text + strlen(text);
-    for (size_t n = 0; n < room; p++) {
-        p = hm_num_parse(p, end, &list[n]);
-        if (!p || !(list[n] >= 0 && list[n] <= most) || (p < end && *p != ','))
-            break;
-        n++;
-        if (p == end)
-            return n;
-    }
+    size_t n = hm_num_parse_list(text, ',', list, room);
+    bool good = n > 0;
+    for (size_t k = 0; good && k < n; k++)
+        good = list[k] >= 0 && list[k] <= most;
+    if (good)
+        return n;
     hm_cli_die(cli, "--%s: '%s' is not a list of at most %zu numbers from 0 to %g", option, text,
                room, most);
 }

@@ -335,6 +335,20 @@ static void writing_random(int n)
     ok(rounded == 0, "rounded to decimals as by printf");
 }
 
+static void lists(void)
+{
+    double v[3] = {0};
+    ok(hm_num_parse_list("1,-2.5,3e2", ',', v, 3) == 3 && v[0] == 1 && v[1] == -2.5 && v[2] == 300,
+       "a list of numbers");
+    ok(hm_num_parse_list("7", '/', v, 3) == 1 && v[0] == 7, "a list of one");
+    static const char *const bad[] = {"",    ",",     "1,",    ",1",   "1,,2",   "1/2",
+                                      "1,x", "1,nan", "1,inf", "1 ,2", "1,2,3,4"};
+    int taken = 0;
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        taken += hm_num_parse_list(bad[k], ',', v, 3) != 0;
+    ok(taken == 0, "what is no list of at most three numbers");
+}
+
 int main(void)
 {
     int n = getenv("HM_LONG") ? 1000000 : 100000;
@@ -342,6 +356,7 @@ int main(void)
     reading();
     reading_random(n);
     halfway(n / 100);
+    lists();
     writing();
     writing_random(n);
     return done();

@@ -48,7 +48,7 @@ printf 'one point\n' >words
 printf '1 2 3\n' >one.xyz
 printf '1 1 0\n2 2 0\n3 3 0\n4 4 0\n' >line.xyz
 printf '1 1 0\n1 1 0\n1 1 0\n1 1 0\n' >equal.xyz
-head -c 300 /dev/urandom | tr '\000-\010' x >noise
+awk 'BEGIN { for (i = 0; i < 300; i++) printf "%c", 128 + i * 7919 % 127 }' >noise
 
 for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw; do
     command -v $tool >/dev/null || { skip "$tool is not built"; continue; }
@@ -85,15 +85,35 @@ for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw;
 done
 
 for bad in one line equal; do
-    for tool in bsgrid "trimesh -l 1 -L 3"; do
+    for tool in bsgrid "bsgrid -m mean" "trimesh -l 1 -L 3"; do
         refuses "$tool: $bad.xyz" "point|line" $tool $bad.xyz
     done
+    refuses "bsmesh: a terrain of $bad.xyz" "terrain|point|line" \
+        bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm $bad.xyz
+    refuses "quality: $bad.xyz beside the mesh" "no measurement|outside" quality hybrid.hm $bad.xyz
 done
+
+# The wrong kind of input.
 refuses "slope takes no points" "grid" slope survey.xyz
+refuses "slope takes no lines" "grid" slope breaklines.hm
 refuses "bsgrid takes no mesh" "points" bsgrid hybrid.hm
 refuses "breaklines wants a slope" "slope" breaklines dem.hm
-refuses "bsmesh wants surfaces" "surface" bsmesh breaklines.hm survey.xyz
+refuses "breaklines takes no points" "grid" breaklines survey.xyz
+refuses "bsmesh wants surfaces" "surface" bsmesh -c 15/6 -e 12/5 breaklines.hm survey.xyz
+refuses "bsmesh wants a terrain" "terrain" bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm
 refuses "stitch wants meshes" "mesh" stitch survey.xyz
 refuses "quality wants a mesh" "mesh" quality survey.xyz
 refuses "quality wants points" "points" quality hybrid.hm
+refuses "hmconv: no 2dm of points" "2dm can hold" hmconv -t 2dm survey.xyz
+refuses "hmconv: no grid of lines" "asc can hold" hmconv -t asc lines.txt
+
+# Crossing and doubled breaklines are mended and counted; --strict makes that exit 1.
+printf '> limit=5\n545050 5972050 6\n545150 5972090 6\n> limit=5\n545050 5972090 6\n545150 5972050 6\n' >cross.txt
+cat cross.txt cross.txt >doubled.txt
+for lines in cross doubled; do
+    ok "trimesh: ${lines}ing breaklines" trimesh -l 6 -L 20 -o mended.hm survey.xyz $lines.txt
+    true_that "they are counted" "$(grep -c 'mended: .*cross' tap.err) == 1"
+    ok "the mesh is valid" quality --check valid mended.hm survey.xyz
+    must_fail "--strict says so" 1 "mended" trimesh --strict -l 6 -L 20 survey.xyz $lines.txt
+done
 done_testing

@@ -5,26 +5,32 @@
 ok "the chain runs" "$TESTS/small_chain" .
 
 # Bytes do not depend on the run nor on the number of threads.
-mkdir again one
+mkdir again threads
 ok "it runs again" "$TESTS/small_chain" again
 for file in dem slope breaklines regular river flood hybrid; do
     same "the same run twice: $file" $file.hm again/$file.hm
 done
-for file in dem slope breaklines regular river flood hybrid; do
-    case $file in
-    dem) command="bsgrid -d 2 survey.xyz" ;;
-    slope) command="slope dem.hm" ;;
-    breaklines) command="breaklines -s 13 -l 30 -r 6 slope.hm" ;;
-    regular) command="bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz" ;;
-    river) command="stitch -c regular.hm survey.xyz" ;;
-    flood) command="trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt river.hm" ;;
-    hybrid) command="stitch river.hm flood.hm" ;;
+command_of() {
+    case $1 in
+    dem) echo "bsgrid -d 2 survey.xyz" ;;
+    slope) echo "slope dem.hm" ;;
+    breaklines) echo "breaklines -s 13 -l 30 -r 6 slope.hm" ;;
+    regular) echo "bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz" ;;
+    river) echo "stitch -c regular.hm survey.xyz" ;;
+    flood) echo "trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt river.hm" ;;
+    hybrid) echo "stitch river.hm flood.hm" ;;
     esac
-    $command -j 1 >one/$file.hm 2>/dev/null
-    same "one thread as two: $file" $file.hm one/$file.hm
+}
+for file in dem slope breaklines regular river flood hybrid; do
+    for j in 1 2 7; do
+        $(command_of $file) -j $j >threads/$file.hm 2>/dev/null
+        same "-j $j: $file" $file.hm threads/$file.hm
+    done
 done
-quality -j 1 hybrid.hm survey.xyz >one/quality.txt
-same "one thread as two: quality" quality.txt one/quality.txt
+for j in 1 2 7; do
+    quality -j $j hybrid.hm survey.xyz >threads/quality.txt
+    same "-j $j: quality" quality.txt threads/quality.txt
+done
 
 # Text, binary and text again: the same bytes.
 for file in dem slope breaklines regular river flood hybrid; do
@@ -39,16 +45,81 @@ same "text, binary, text: points" survey.hm back.hm
 bsgrid -b -d 2 survey.xyz | slope -b | breaklines -s 13 -l 30 -r 6 >piped.hm 2>/dev/null
 same "breaklines through binary pipes" breaklines.hm piped.hm
 
+# Every segment of a breakline, both of whose ends trimesh kept, is a chain of mesh edges: the nodes
+# on it, in order, are joined by edges. Counted: segments kept, and those that are no chain.
+cat >chains.awk <<'END'
+/^#/ { next }
+FNR == NR && /^v/ { x[n] = $2; y[n] = $3; node[$2 " " $3] = n++; next }
+FNR == NR { for (i = 2; i <= 4; i++) { j = i % 3 + 2; edge[$i, $j] = edge[$j, $i] = 1 } next }
+/^>/ { a = ""; next }
+{ b = ($1 " " $2) in node ? node[$1 " " $2] : ""
+  if (a != "" && b != "") check(a, b)
+  a = b }
+function check(a, b,    k, m, dx, dy, t, at, on, i, j, swap) {
+    kept++
+    if ((a, b) in edge) return
+    dx = x[b] - x[a]; dy = y[b] - y[a]; m = 0
+    for (k = 0; k < n; k++) {
+        t = ((x[k] - x[a]) * dx + (y[k] - y[a]) * dy) / (dx * dx + dy * dy)
+        if (t < 0 || t > 1 || ((x[k] - x[a]) * dy - (y[k] - y[a]) * dx) ^ 2 > 1e-12 * (dx * dx + dy * dy)) continue
+        for (i = m++; i > 0 && at[i - 1] > t; i--) { at[i] = at[i - 1]; on[i] = on[i - 1] }
+        at[i] = t; on[i] = k
+    }
+    for (i = 1; i < m; i++) if (!((on[i - 1], on[i]) in edge)) { broken++; return }
+}
+BEGIN { n = 0 }
+END { print kept + 0, broken + 0 }
+END
+set -- $(awk -f chains.awk flood.hm breaklines.hm)
+true_that "breaklines are chains of mesh edges: segments kept and broken: $*" "$1 > 100 && $2 == 0"
+
 # The hybrid mesh covers its domain once: the elements' areas add up to the area of the outline.
-area=$(awk 'BEGIN { n = 0 } /^v/ { x[n] = $2 - 545000; y[n++] = $3 - 5972000 }
-    /^[tq]/ { m = /^t/ ? 3 : 4
-        for (i = 0; i < m; i++) { a = $(2 + i); b = $(2 + (i + 1) % m); s += x[a] * y[b] - x[b] * y[a] } }
-    END { printf "%.17g", s / 2 }' hybrid.hm)
-outline=$(awk 'BEGIN { n = 0 } /^>/ { on = /boundary=1/; next } on && !/^#/ { x[n] = $1 - 545000; y[n++] = $2 - 5972000 }
-    END { for (i = 0; i < n; i++) { j = (i + 1) % n; s += x[i] * y[j] - x[j] * y[i] }
-          printf "%.17g", s < 0 ? -s / 2 : s / 2 }' lines.txt)
+cat >area.awk <<'END'
+BEGIN { n = 0 }
+/^v/ { x[n] = $2 - 545000; y[n++] = $3 - 5972000 }
+/^[tq]/ { m = /^t/ ? 3 : 4
+    for (i = 0; i < m; i++) { a = $(2 + i); b = $(2 + (i + 1) % m); s += x[a] * y[b] - x[b] * y[a] } }
+END { printf "%.17g", s / 2 }
+END
+# area of the closed line whose attributes match: ring_area PATTERN FILE
+ring_area() {
+    awk -v pattern="$1" 'BEGIN { n = 0 } /^>/ { on = $0 ~ pattern; next }
+        on && !/^#/ { x[n] = $1 - 545000; y[n++] = $2 - 5972000 }
+        END { for (i = 0; i < n; i++) { j = (i + 1) % n; s += x[i] * y[j] - x[j] * y[i] }
+              printf "%.17g", s < 0 ? -s / 2 : s / 2 }' "$2"
+}
+area=$(awk -f area.awk hybrid.hm)
+outline=$(ring_area boundary=1 lines.txt)
 true_that "area of the elements $area against the outline $outline" \
     "($area - $outline) ^ 2 <= (1e-9 * $outline) ^ 2"
+cat >building.txt <<'END'
+> hole=1 closed=1
+545060 5972210
+545078 5972212
+545076 5972226
+545058 5972223
+END
+trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt building.txt river.hm 2>/dev/null |
+    stitch river.hm - >with_hole.hm
+area=$(awk -f area.awk with_hole.hm)
+outline=$(awk "BEGIN { printf \"%.17g\", $outline - $(ring_area hole=1 building.txt) }")
+true_that "area with a building left out: $area of $outline" \
+    "($area - $outline) ^ 2 <= (1e-9 * $outline) ^ 2"
+
+# Without an outline the mesh fills the convex hull of the points.
+trimesh -l 6 -L 20 survey.xyz breaklines.hm >hull_mesh.hm 2>/dev/null
+hull=$(sort -k1,1n -k2,2n survey.xyz | awk '
+    function turn(i, j, k) { return (x[j] - x[i]) * (y[k] - y[i]) - (y[j] - y[i]) * (x[k] - x[i]) }
+    !/^#/ { x[n] = $1 - 545000; y[n] = $2 - 5972000; n++ }
+    BEGIN { n = 0 }
+    END {
+        for (i = 0; i < n; i++) { while (m >= 2 && turn(h[m - 2], h[m - 1], i) <= 0) m--; h[m++] = i }
+        floor = m + 1
+        for (i = n - 2; i >= 0; i--) { while (m >= floor && turn(h[m - 2], h[m - 1], i) <= 0) m--; h[m++] = i }
+        for (i = 0; i + 1 < m; i++) s += x[h[i]] * y[h[i + 1]] - x[h[i + 1]] * y[h[i]]
+        printf "%.17g", s / 2 }')
+area=$(awk -f area.awk hull_mesh.hm)
+true_that "area without an outline: $area, hull $hull" "($area - $hull) ^ 2 <= (1e-9 * $hull) ^ 2"
 ok "the hybrid mesh is valid" quality --check valid hybrid.hm survey.xyz
 
 # A plane survey: slope exact, residuals nil.

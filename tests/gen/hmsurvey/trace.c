@@ -45,16 +45,15 @@ void trace_truth(FILE *out, const struct terrain *t)
 
 /* --- the rough lines --- */
 
-/* First parameter from `s` on, in steps of a metre, from which the strip of half width `half` lies
+/* First parameter from `s` on, in steps of a metre, at which the line `offset` left of the axis is
  * inside the domain less `margin`; or, with inside false, is not. */
-static double find_border(const struct terrain *t, enum feature f, double s, double half,
+static double find_border(const struct terrain *t, enum feature f, double s, double offset,
                           double margin, bool inside)
 {
     for (; s < curve_end(&t->axis[f]); s = curve_advance(&t->axis[f], s, 1)) {
-        double left[2], right[2];
-        curve_offset(&t->axis[f], s, half, left);
-        curve_offset(&t->axis[f], s, -half, right);
-        if ((is_inside(t, left, margin) && is_inside(t, right, margin)) == inside)
+        double p[2];
+        curve_offset(&t->axis[f], s, offset, p);
+        if (is_inside(t, p, margin) == inside)
             return s;
     }
     return curve_end(&t->axis[f]);
@@ -106,13 +105,17 @@ static void click_line(FILE *out, const struct curve *c, const struct click *k, 
     }
 }
 
-/* Both banks of a river as a surface. */
-static void click_river(FILE *out, const struct terrain *t, enum feature f, double from, double to,
+/* Both banks of a river as a surface, from border to border, each end `margin` inside the domain; a
+ * mouth reaches into the bed of the main river, so that the two surfaces overlap. */
+static void click_river(FILE *out, const struct terrain *t, enum feature f, double margin,
                         struct rng *rng)
 {
     const struct section *section = &terrain_section[f];
     const double crest = section->half + section->run * section->height;
+    const double mouth = curve_advance(&t->axis[f], curve_end(&t->axis[f]), -7);
     for (int side = 1; side >= -1; side -= 2) {
+        double from = find_border(t, f, 0, side * crest, margin, true);
+        double to = fmin(mouth, find_border(t, f, from, side * crest, margin, false));
         struct click k = {from, to, side * crest, 100, 1, 3};
         fprintf(out, "> surface=%s side=%s\n", section->name, side > 0 ? "left" : "right");
         click_line(out, &t->axis[f], &k, rng);
@@ -126,7 +129,7 @@ static void click_levee(FILE *out, const struct terrain *t, struct rng *rng)
     const struct curve *axis = &t->axis[LEVEE];
     const struct section *section = &terrain_section[LEVEE];
     const double toe = section->half + section->run * section->height;
-    double from = find_border(t, LEVEE, 0, 20, 20, true);
+    double from = find_border(t, LEVEE, 0, 0, 30, true);
     from = curve_advance(axis, from, 0.12 * t->w);
     double to = curve_advance(axis, from, 0.5 * t->w);
     for (int side = 1; side >= -1; side -= 2) {
@@ -146,16 +149,16 @@ static void click_levee(FILE *out, const struct terrain *t, struct rng *rng)
     }
 }
 
-/* A boundary string: along the outline, `margin` inside the domain, from bank to bank of the river
- * that crosses it at parameter s. */
+/* A boundary string, drawn across the river's end `margin` inside the domain, at parameter s of the
+ * axis, a little wider than the river. */
 static void click_string(FILE *out, const struct terrain *t, enum feature f, double s,
                          double margin, const char *name)
 {
     const struct section *section = &terrain_section[f];
-    const double half = section->half + section->run * section->height - 2;
+    const double half = section->half + section->run * section->height + 2;
     double axis[2];
     curve_offset(&t->axis[f], s, 0, axis);
-    const bool west = axis[0]<margin + 2, east = axis[0]> t->w - margin - 2;
+    const bool west = axis[0]<margin + 2, east = axis[0] + margin + 2> t->w;
     fprintf(out, "> string=%s\n", name);
     for (int side = 1; side >= -1; side -= 2) {
         double p[2];
@@ -168,17 +171,14 @@ static void click_string(FILE *out, const struct terrain *t, enum feature f, dou
     }
 }
 
+/* The outline lies further inside than the ends of the rivers: their meshes reach through it, and
+ * so the ends of the rivers are where water enters and leaves the model. */
 void trace_rough(FILE *out, const struct terrain *t, uint64_t seed)
 {
     struct rng rng = {seed ^ 0x2545f491};
-    const double outline = 3, inset = 9, half = 25;
-    double from = find_border(t, MAIN, 0, half, inset, true);
-    double to = find_border(t, MAIN, from, half, inset, false);
-    double source = find_border(t, TRIBUTARY, 0, half, inset, true);
-    /* The mouth reaches into the bed of the main river, so that the two surfaces overlap. */
-    double mouth = curve_advance(&t->axis[TRIBUTARY], curve_end(&t->axis[TRIBUTARY]), -7);
-    click_river(out, t, MAIN, from, to, &rng);
-    click_river(out, t, TRIBUTARY, source, mouth, &rng);
+    const double end = 6, outline = 14;
+    click_river(out, t, MAIN, end, &rng);
+    click_river(out, t, TRIBUTARY, end, &rng);
     click_levee(out, t, &rng);
 
     fprintf(out, "> boundary=1 closed=1\n");
@@ -186,9 +186,9 @@ void trace_rough(FILE *out, const struct terrain *t, uint64_t seed)
     print_vertex(out, (double[]){t->w - outline, outline});
     print_vertex(out, (double[]){t->w - outline, t->h - outline});
     print_vertex(out, (double[]){outline, t->h - outline});
-    double begin = find_border(t, MAIN, 0, 0, outline, true);
-    click_string(out, t, MAIN, begin, outline, "inflow");
-    click_string(out, t, TRIBUTARY, find_border(t, TRIBUTARY, 0, 0, outline, true), outline,
+    double begin = find_border(t, MAIN, 0, 0, end, true);
+    click_string(out, t, MAIN, begin, end, "inflow");
+    click_string(out, t, TRIBUTARY, find_border(t, TRIBUTARY, 0, 0, end, true), end,
                  "inflow_tributary");
-    click_string(out, t, MAIN, find_border(t, MAIN, begin, 0, outline, false), outline, "outflow");
+    click_string(out, t, MAIN, find_border(t, MAIN, begin, 0, end, false), end, "outflow");
 }

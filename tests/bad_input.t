@@ -85,12 +85,11 @@ for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw;
 done
 
 for bad in one line equal; do
-    for tool in bsgrid "bsgrid -m mean" "trimesh -l 1 -L 3"; do
+    for tool in bsgrid "trimesh -l 1 -L 3"; do
         refuses "$tool: $bad.xyz" "point|line" $tool $bad.xyz
     done
     refuses "bsmesh: a terrain of $bad.xyz" "terrain|point|line" \
         bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm $bad.xyz
-    refuses "quality: $bad.xyz beside the mesh" "no measurement|outside" quality hybrid.hm $bad.xyz
 done
 
 # The wrong kind of input.

@@ -1,4 +1,4 @@
-/* hm_anchor: lattices whose nodes lie at whole multiples of the spacing. Layer 2.
+/* hm_anchor: lattices whose nodes lie at whole multiples of the spacing. Layer 3.
  *
  * Node number i lies at i * spacing, whatever window of the lattice is in use, so that two runs
  * over neighbouring windows have the same nodes.

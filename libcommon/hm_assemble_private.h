@@ -1,5 +1,6 @@
-/* hm_assemble_private: what hm_assemble works on. Internal to hm_assemble.c, which puts everything
- * into one triangulation, and hm_assemble_ground.c, which finds in it the ground to be meshed.
+/* hm_assemble_private: what hm_assemble works on. Layer 6. Internal to hm_assemble.c, which puts
+ * everything into one triangulation, and hm_assemble_ground.c, which finds in it the ground to be
+ * meshed.
  */
 #ifndef HM_ASSEMBLE_PRIVATE_H
 #define HM_ASSEMBLE_PRIVATE_H

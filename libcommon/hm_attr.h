@@ -1,4 +1,4 @@
-/* hm_attr: the key=value attributes of a line, kept as the text that came in. Layer 1.
+/* hm_attr: the key=value attributes of a line, kept as the text that came in. Layer 3.
  *
  * `surface=main side=left name="upper bank"`: blanks separate, double quotes protect blanks, a
  * backslash inside quotes protects the next character. A later key overrides an earlier one.

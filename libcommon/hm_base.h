@@ -1,4 +1,4 @@
-/* hm_base: errors, diagnostics and memory. Layer 0, on libc only.
+/* hm_base: errors, diagnostics and memory. Layer 0.
  *
  * The library computes; it never prints and never exits. A function that can fail returns an
  * enum hm_err and, when it does fail, describes the failure in the struct hm_diag that its caller

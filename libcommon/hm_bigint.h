@@ -1,4 +1,4 @@
-/* hm_bigint: whole numbers of a fixed largest size, for exact predicates. Layer 0.
+/* hm_bigint: whole numbers of a fixed largest size, for exact predicates. Layer 1.
  *
  * Sign and magnitude in 32-bit limbs, the least first. Big enough for a determinant of degree four
  * in differences of doubles of any size: 4 * 2099 bits and a few for the sums. Operands may not be

@@ -1,4 +1,4 @@
-/* hm_block: the blocks of the binary form, for reader and writer. Layer 1.
+/* hm_block: the blocks of the binary form, for reader and writer. Layer 5.
  *
  * A block is a tag of four bytes, u32 zero, u64 count, and its records, all little endian.
  */

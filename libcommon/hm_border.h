@@ -1,4 +1,4 @@
-/* hm_border: the boundary of a mesh, indexed. Layer 5, on edges and box trees. */
+/* hm_border: the boundary of a mesh, indexed. Layer 4. */
 #ifndef HM_BORDER_H
 #define HM_BORDER_H
 

@@ -1,4 +1,4 @@
-/* hm_boxtree: which of many boxes meet a given one. Layer 1.
+/* hm_boxtree: which of many boxes meet a given one. Layer 2.
  *
  * A packed tree: the boxes in the order of a space-filling curve (hm_order), eight to a node, eight
  * nodes to the next. Unlike a bucket grid it does not mind elements of very different size.

@@ -1,4 +1,4 @@
-/* hm_cellmean: the mean height of the points in each cell of an anchored lattice. Layer 3.
+/* hm_cellmean: the mean height of the points in each cell of an anchored lattice. Layer 6.
  *
  * Memory is for the cells that hold points, in tiles, whatever the number of points; the extent
  * need not be known before. The cell of a node is one spacing wide, the node in the middle; a point

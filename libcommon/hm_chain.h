@@ -1,4 +1,4 @@
-/* hm_chain: directed pieces linked into lines while they come, without any search. Layer 3.
+/* hm_chain: directed pieces linked into lines while they come, without any search. Layer 6.
  *
  * A joint is a place where at most one piece ends and one begins: an edge between two cells of a
  * grid. Pieces come in any order; a line is handed out, and its memory used again, as soon as no

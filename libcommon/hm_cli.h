@@ -1,4 +1,4 @@
-/* hm_cli: the command line that all tools share. Top layer: may print and exit.
+/* hm_cli: the command line that all tools share. Layer 7, the top: may print and exit.
  *
  * A tool has one struct for what the user asked, one table of options, and main():
  *

@@ -1,5 +1,5 @@
 /* hm_cli_private: what the two halves of hm_cli share (options in hm_cli.c, streams in
- * hm_cli_io.c). */
+ * hm_cli_io.c). Layer 7. */
 #ifndef HM_CLI_PRIVATE_H
 #define HM_CLI_PRIVATE_H
 

@@ -1,4 +1,4 @@
-/* hm_coarsen: rounds that make a mesh coarser where its edges are too short. Layer 5.
+/* hm_coarsen: rounds that make a mesh coarser where its edges are too short. Layer 6.
  *
  * The paper's section 6, Figure 9: triangles, then single edges, under a minimum length shrink to
  * their centre. A round makes many such changes that do not touch each other; which ones depends on

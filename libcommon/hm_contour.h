@@ -1,4 +1,4 @@
-/* hm_contour: breaklines, the borders of what is steeper than a limit, row by row. Layer 4.
+/* hm_contour: breaklines, the borders of what is steeper than a limit, row by row. Layer 6.
  *
  * A node is steep when its slope is >= the limit. On every edge of the grid between a steep node
  * and one that is not lies a crossing (the paper's equation 8); within a cell the crossings are

@@ -1,5 +1,5 @@
 /* hm_coons: the bilinearly blended Coons patch (Coons 1967), by which the paper places the interior
- * control points (section 5.1). Layer 0. */
+ * control points (section 5.1). Layer 6. */
 #ifndef HM_COONS_H
 #define HM_COONS_H
 

@@ -1,4 +1,4 @@
-/* hm_cut: which elements of a mesh make room for another mesh. Layer 6, on borders and location.
+/* hm_cut: which elements of a mesh make room for another mesh. Layer 6.
  *
  * The paper's overlapping surfaces (5.2): of two regular meshes the one of lower priority loses the
  * elements that overlap the higher one or come nearer to it than a buffer.

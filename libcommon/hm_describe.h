@@ -1,4 +1,4 @@
-/* hm_describe: what an object holds, in a few lines of text. Layer 4, on reader and writer. */
+/* hm_describe: what an object holds, in a few lines of text. Layer 6. */
 #ifndef HM_DESCRIBE_H
 #define HM_DESCRIBE_H
 

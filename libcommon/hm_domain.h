@@ -1,4 +1,4 @@
-/* hm_domain: the ground that an irregular mesh covers, and the mesh while it is made. Layer 4.
+/* hm_domain: the ground that an irregular mesh covers, and the mesh while it is made. Layer 6.
  *
  * Nodes and fixed edges say everything; the triangulation is always the constrained Delaunay
  * triangulation of them, made anew after each round of changes. That costs little while a round

@@ -1,4 +1,4 @@
-/* hm_drape: the heights of a B-spline surface dragged to the terrain under it. Layer 2.
+/* hm_drape: the heights of a B-spline surface dragged to the terrain under it. Layer 6.
  *
  * Least-squares progressive-iterative approximation (Deng & Lin 2014) on a lattice of samples: in
  * each iteration a control point moves by the mean of the residuals under its basis function,

@@ -1,4 +1,4 @@
-/* hm_export: objects written in the formats of other programs. Layer 4, on data and writer.
+/* hm_export: objects written in the formats of other programs. Layer 6.
  *
  * Blanks separate, never tabs; lines end with LF. Numbers are the shortest that read back exactly,
  * or rounded to `decimals` places (0: exact).

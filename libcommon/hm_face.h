@@ -1,5 +1,5 @@
 /* hm_face: a regular mesh cut out by closed loops, the paper's face technology (section 5.3).
- * Layer 5.
+ * Layer 6.
  *
  * Lines with `face=NAME`, closed, are loops round what stays of surface NAME; with `hole=1` besides
  * round what goes. A node is inside when it lies in some loop (or there is none) and in no hole;

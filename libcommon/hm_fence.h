@@ -1,5 +1,5 @@
 /* hm_fence: the boundaries of regular meshes, which points and lines around them must keep clear
- * of. Layer 5, on meshcheck, polyline and segindex.
+ * of. Layer 6.
  *
  * A breakline that a regular mesh was snapped to follows its boundary within centimetres; triangles
  * between the two would be slivers. So what comes nearer than a clearance is cut off.

@@ -1,4 +1,4 @@
-/* hm_gapfill: heights for the nodes of a grid that got no measurement. Layer 3, on hm_tri. */
+/* hm_gapfill: heights for the nodes of a grid that got no measurement. Layer 6. */
 #ifndef HM_GAPFILL_H
 #define HM_GAPFILL_H
 

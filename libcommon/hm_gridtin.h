@@ -1,4 +1,4 @@
-/* hm_gridtin: heights at the nodes of an anchored lattice from a triangulation. Layer 3. */
+/* hm_gridtin: heights at the nodes of an anchored lattice from a triangulation. Layer 6. */
 #ifndef HM_GRIDTIN_H
 #define HM_GRIDTIN_H
 

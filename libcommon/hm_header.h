@@ -1,4 +1,4 @@
-/* hm_header: what stands above the data of an object in a stream. Layer 1.
+/* hm_header: what stands above the data of an object in a stream. Layer 3.
  *
  * The text form is a block of lines that begin with '#' (hybridmesh(5)). Keys that describe the
  * shape of the data (size, origin, step, fields) are held in fields of their own, the programs that

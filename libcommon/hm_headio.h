@@ -1,4 +1,4 @@
-/* hm_headio: the header of an object as it stands in a stream. Layer 2, within reader and writer.
+/* hm_headio: the header of an object as it stands in a stream. Layer 5.
  */
 #ifndef HM_HEADIO_H
 #define HM_HEADIO_H

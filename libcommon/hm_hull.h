@@ -1,4 +1,4 @@
-/* hm_hull: convex hull of points. Layer 2, on predicates. */
+/* hm_hull: convex hull of points. Layer 2. */
 #ifndef HM_HULL_H
 #define HM_HULL_H
 

@@ -1,4 +1,4 @@
-/* hm_input: the bytes of a file or pipe, as lines or as blocks, without copying. Layer 1.
+/* hm_input: the bytes of a file or pipe, as lines or as blocks, without copying. Layer 5.
  *
  * One buffer; lines and blocks are given as pointers into it that hold until the next call. It
  * grows only when a single line is longer than it, hence with the data that are really there.

@@ -1,4 +1,4 @@
-/* hm_json: JSON, as it is written. Layer 2, on the writer. Commas, indentation and quotes are done
+/* hm_json: JSON, as it is written. Layer 6. Commas, indentation and quotes are done
  * here; names are given in objects and NULL in arrays.
  *
  *     struct hm_json j = {.w = writer};

@@ -1,4 +1,4 @@
-/* hm_lineedit: changes of one line in its own memory. Layer 3. */
+/* hm_lineedit: changes of one line in its own memory. Layer 6. */
 #ifndef HM_LINEEDIT_H
 #define HM_LINEEDIT_H
 

@@ -1,4 +1,4 @@
-/* hm_locate: which element of a mesh holds a point. Layer 5, on element measures and box trees.
+/* hm_locate: which element of a mesh holds a point. Layer 4.
  *
  * Meshes of triangles and convex quadrilaterals, of any number of pieces, with holes; also invalid
  * ones (overlaps: the lowest element number wins). Read-only queries: threads may share an index.

@@ -1,4 +1,4 @@
-/* hm_lspia: a B-spline surface dragged towards scattered measurements. Layer 2.
+/* hm_lspia: a B-spline surface dragged towards scattered measurements. Layer 6.
  *
  * Least-squares progressive-iterative approximation (Deng & Lin 2014): in each iteration a control
  * point moves by the mean of the residuals of the measurements under its basis function, weighted

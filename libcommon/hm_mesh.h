@@ -1,4 +1,4 @@
-/* hm_mesh: nodes and elements. Layer 1, on hm_header.
+/* hm_mesh: nodes and elements. Layer 3.
  *
  * Elements are counter-clockwise; node[3] is -1 in a triangle. A mesh begins life as `= {0}`, owns
  * what its pointers hold, and is emptied by hm_mesh_free.

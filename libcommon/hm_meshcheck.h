@@ -1,4 +1,4 @@
-/* hm_meshcheck: is a mesh one that solvers accept? Layer 5, on edges, element measures, box trees.
+/* hm_meshcheck: is a mesh one that solvers accept? Layer 4.
  */
 #ifndef HM_MESHCHECK_H
 #define HM_MESHCHECK_H

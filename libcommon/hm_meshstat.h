@@ -1,4 +1,4 @@
-/* hm_meshstat: sizes and shapes of the elements of a mesh. Layer 5, on elements and edges. */
+/* hm_meshstat: sizes and shapes of the elements of a mesh. Layer 6. */
 #ifndef HM_MESHSTAT_H
 #define HM_MESHSTAT_H
 

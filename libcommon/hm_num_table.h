@@ -1,4 +1,4 @@
-/* hm_num_table: powers of ten, for hm_num.c alone.
+/* hm_num_table: powers of ten, for hm_num.c alone. Layer 1.
  *
  * Entry q - HM_NUM_POW10_MIN holds the leading 128 bits of 10^q, cut off (not rounded): with
  * e = floor(log2(10^q)) it is floor(10^q * 2^(127 - e)), high word first. Exact for q in

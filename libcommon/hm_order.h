@@ -1,5 +1,5 @@
 /* hm_order: points sorted along a space-filling curve, so that neighbours in the plane are
- * neighbours in memory. Layer 1, on threads.
+ * neighbours in memory. Layer 2.
  *
  * A frame lays 2^16 x 2^16 square cells over a rectangle of points; the key of a cell is its Morton
  * number (the bits of row and column interlaced, y above x). Cells are monotone in the coordinates:

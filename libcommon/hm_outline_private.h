@@ -1,5 +1,6 @@
-/* hm_outline_private: stretches of outline along a gap, and how they end at the higher mesh. Shared
- * by hm_outline.c, which finds them, and hm_outline_mouth.c, which ties their ends; nobody else's.
+/* hm_outline_private: stretches of outline along a gap, and how they end at the higher mesh.
+ * Layer 6. Shared by hm_outline.c, which finds them, and hm_outline_mouth.c, which ties their ends;
+ * nobody else's.
  */
 #ifndef HM_OUTLINE_PRIVATE_H
 #define HM_OUTLINE_PRIVATE_H

@@ -1,4 +1,4 @@
-/* hm_output: buffered bytes to a file or pipe, every one of them checked. Layer 1.
+/* hm_output: buffered bytes to a file or pipe, every one of them checked. Layer 5.
  *
  * A regular file is written beside its name and takes the name only when it is whole.
  */

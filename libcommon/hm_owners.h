@@ -1,4 +1,4 @@
-/* hm_owners: the numbers of regular meshes, as nodes carry them, over several meshes. Layer 2.
+/* hm_owners: the numbers of regular meshes, as nodes carry them, over several meshes. Layer 4.
  *
  * A mesh's header says `#owners main tributary`: owner 1 of a node means main, 2 tributary, 0 none.
  */

@@ -1,4 +1,4 @@
-/* hm_paper: the paper's way to an irregular mesh. Layer 6, on coarsen, subdivide and smooth.
+/* hm_paper: the paper's way to an irregular mesh. Layer 6.
  *
  * Coarsening and refinement take turns until no free edge is under the minimum and none over the
  * maximum, or nothing more can be done about it; then the free nodes are smoothed.

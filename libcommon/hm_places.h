@@ -1,4 +1,4 @@
-/* hm_places: a number for every place, places told apart by the exact x and y. Layer 1.
+/* hm_places: a number for every place, places told apart by the exact x and y. Layer 2.
  *
  * The identity of mesh nodes: the same when x and y are bit-equal (but -0 is 0).
  */

@@ -1,4 +1,4 @@
-/* hm_plane: points and segments in the plane. Layer 2, on predicates. A point is its x and y. */
+/* hm_plane: points and segments in the plane. Layer 2. A point is its x and y. */
 #ifndef HM_PLANE_H
 #define HM_PLANE_H
 

@@ -1,5 +1,4 @@
-/* hm_polyline: measures and changes of polylines and polygons. Layer 3, on predicates and segment
- * index.
+/* hm_polyline: measures and changes of polylines and polygons. Layer 4.
  *
  * Vertices are x, y, z side by side (struct hm_line); z is carried along, lengths are in the plane.
  */

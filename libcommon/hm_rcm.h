@@ -1,4 +1,4 @@
-/* hm_rcm: nodes and elements of a mesh in an order that keeps neighbours together. Layer 3.
+/* hm_rcm: nodes and elements of a mesh in an order that keeps neighbours together. Layer 6.
  *
  * Reverse Cuthill–McKee (Cuthill & McKee 1969, George & Liu 1981): breadth first from a node at the
  * rim of each piece, neighbours by degree, the whole order reversed. Solvers with a banded or

@@ -1,4 +1,4 @@
-/* hm_reader: objects from one file or pipe, in order, without holding them. Layer 2.
+/* hm_reader: objects from one file or pipe, in order, without holding them. Layer 5.
  *
  * Reads the project's streams, text and binary, and recognises by content: bare tables of points,
  * LAS 1.0–1.4, ESRI ASCII grids, GMT multisegment lines, SMS .2dm meshes (hybridmesh(5)).

@@ -1,4 +1,4 @@
-/* hm_reader_private: what its parts share. Layer 2.
+/* hm_reader_private: what the parts of the reader share. Layer 5.
  *
  * A form is one way in which objects are written: the project's text, its blocks, or a foreign
  * format. hm_reader.c recognises it and calls its functions; these read, check what they read, set

@@ -1,5 +1,5 @@
 /* hm_regular: a regular mesh on a quadratic (1 … 3) B-spline surface between two banks, the paper's
- * section 5. Layer 5.
+ * section 5. Layer 6.
  *
  *     rough lines → control points on both banks → snapped to breaklines (hm_snap)
  *                 → Coons patch → x, y dragged through them (hm_bspline)

@@ -1,5 +1,5 @@
 /* hm_residual: statistics of residuals (height of the mesh minus measured height, metres) that
- * arrive one after the other. Layer 1. Memory does not grow with their number.
+ * arrive one after the other. Layer 6. Memory does not grow with their number.
  *
  * Classes are those of the paper's Table 1: acceptable (green) up to 0.10 m, tolerable (yellow) up
  * to 0.30 m, significant (red) above.

@@ -1,4 +1,4 @@
-/* hm_role: what a line is for, by its attributes (hybridmesh(5)). Layer 2. */
+/* hm_role: what a line is for, by its attributes (hybridmesh(5)). Layer 3. */
 #ifndef HM_ROLE_H
 #define HM_ROLE_H
 

@@ -1,4 +1,4 @@
-/* hm_rough: the rough boundaries of regular meshes, as a user draws them. Layer 4.
+/* hm_rough: the rough boundaries of regular meshes, as a user draws them. Layer 6.
  *
  * A surface is bounded by two banks and two end sections, lines with the attributes
  * `surface=NAME side=left|right|inflow|outflow`; left and right as one looks downstream. Banks may

@@ -1,4 +1,4 @@
-/* hm_row: the numbers of one line of text. Layer 2, inside the reader. */
+/* hm_row: the numbers of one line of text. Layer 5. */
 #ifndef HM_ROW_H
 #define HM_ROW_H
 

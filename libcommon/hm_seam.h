@@ -1,5 +1,4 @@
-/* hm_seam: filling the gap between two meshes with triangles. Layer 7, on outlines and
- * triangulation.
+/* hm_seam: filling the gap between two meshes with triangles. Layer 6.
  *
  * The gap is what the elements cut away from the lower mesh covered beyond the higher one. It is
  * filled by constrained Delaunay triangulation between the two borders, without a new node on

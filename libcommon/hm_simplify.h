@@ -1,4 +1,4 @@
-/* hm_simplify: fewer vertices for a set of lines, without making any two of them cross. Layer 3.
+/* hm_simplify: fewer vertices for a set of lines, without making any two of them cross. Layer 6.
  *
  * The vertex whose loss moves its line least goes first. It may go when every vertex that the line
  * had there lies within the tolerance of the new piece, and no other vertex of any line lies in the

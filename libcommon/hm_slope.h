@@ -1,4 +1,4 @@
-/* hm_slope: gradient, slope and aspect of a grid, row by row. Layer 1.
+/* hm_slope: gradient, slope and aspect of a grid, row by row. Layer 6.
  *
  * The gradient is taken from the node's 3 × 3 neighbours. Weighted methods take the difference over
  * each of the three rows (columns) that has one and weigh them:

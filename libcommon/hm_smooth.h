@@ -1,4 +1,4 @@
-/* hm_smooth: Laplace smoothing of the free nodes. Layer 5. */
+/* hm_smooth: Laplace smoothing of the free nodes. Layer 6. */
 #ifndef HM_SMOOTH_H
 #define HM_SMOOTH_H
 

@@ -1,5 +1,5 @@
 /* hm_snap: control points along a rough bank, moved to breaklines (the paper's section 5.1, figures
- * 5 and 7). Layer 4.
+ * 5 and 7). Layer 6.
  *
  * "Moved to the nearest breakline" is a fit of the whole bank, not of each point alone: where two
  * breaklines run side by side (toe and crest) the bank stays on one of them, it goes forward along

@@ -1,4 +1,4 @@
-/* hm_stitch: a regular mesh stitched to what is there. Layer 8, on cuts, seams and joins.
+/* hm_stitch: a regular mesh stitched to what is there. Layer 6.
  *
  * The paper's 5.2, in order of priority: what is there stays as it is; the new mesh gives way.
  */

@@ -1,4 +1,4 @@
-/* hm_subdivide: rounds that make a mesh finer where its edges are too long. Layer 5.
+/* hm_subdivide: rounds that make a mesh finer where its edges are too long. Layer 6.
  *
  * The paper's section 6, Figure 10: triangles, then single edges, over a maximum length get their
  * centre as a new node.

@@ -1,4 +1,4 @@
-/* hm_tri: Delaunay and constrained Delaunay triangulation. Layer 2, on predicates and threads.
+/* hm_tri: Delaunay and constrained Delaunay triangulation. Layer 2.
  *
  * Exact predicates throughout; cocircular points are triangulated by their lexicographic order, so
  * the result depends on the points alone, not on their order nor on the number of threads.

@@ -1,4 +1,4 @@
-/* hm_tri_topology: how hm_tri keeps its triangles. Internal to the hm_tri_*.c files.
+/* hm_tri_topology: how hm_tri keeps its triangles. Layer 2. Internal to the hm_tri_*.c files.
  *
  * A triangle is three half-edges in a row, eight bytes each. What only some need (marks, regions,
  * an edge at each vertex) is in arrays of its own, made when first needed.

@@ -1,4 +1,4 @@
-/* hm_writer: objects to one file or pipe. Layer 2.
+/* hm_writer: objects to one file or pipe. Layer 5.
  *
  *     hm_writer_open(&w, "-", (struct hm_format){.binary = true}, d);
  *     hm_writer_begin(w, &header, d);

@@ -1,4 +1,4 @@
-/* hm_writer_private: what its two forms, text and blocks, share. Layer 2. */
+/* hm_writer_private: what the two forms of the writer, text and blocks, share. Layer 5. */
 #ifndef HM_WRITER_PRIVATE_H
 #define HM_WRITER_PRIVATE_H
 

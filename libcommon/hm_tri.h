@@ -143,7 +143,8 @@ enum hm_err hm_tri_insert(struct hm_tri *t, double x, double y, int32_t hint, in
                           struct hm_diag *d);
 
 /* Add a vertex on edge e at x, y, as if it lay on it exactly (midpoints of slanted edges never do):
- * both halves keep the marks. HM_EGEOM, with nothing changed, when that would fold a triangle. */
+ * both halves keep the marks. It may be anywhere in the two triangles of e. HM_EGEOM, with nothing
+ * changed, elsewhere. */
 enum hm_err hm_tri_split(struct hm_tri *t, int32_t e, double x, double y, int32_t *v,
                          struct hm_diag *d);
 

@@ -157,17 +157,54 @@ bool hm_tri_can_split(const struct hm_tri *t, int32_t e, const double *p)
            turns_left(t, b, p, a, hm_tri_apex_of(t, t->half[e].twin));
 }
 
+/* Strictly inside, so never of a ghost. */
+static bool is_within(const struct hm_tri *t, int32_t tri, const double *p)
+{
+    if (hm_tri_is_ghost(t, tri))
+        return false;
+    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++)
+        if (hm_pred_orient_fast(hm_tri_at(t, t->half[e].org), hm_tri_at(t, hm_tri_dest_of(t, e)),
+                                p) <= 0)
+            return false;
+    return true;
+}
+
+/* Split edge e, from a to b, at a vertex inside its triangle: e stays as an edge, and the
+ * constraint leaves it to go over the vertex. What is between now lies on the other side of it. */
+static void split_beside(struct hm_tri *t, int32_t e, int32_t v)
+{
+    int32_t a = t->half[e].org, b = hm_tri_dest_of(t, e), marks = hm_tri_marks_of(t, e);
+    int32_t beyond = hm_tri_region(t, t->half[e].twin / 3);
+    if (marks)
+        hm_tri_set_marks(t, e, 0);
+    hm_tri_split_triangle(t, e / 3, v);
+    int32_t spoke = hm_tri_edge_between(t, v, a);
+    if (marks)
+        hm_tri_set_marks(t, spoke, marks);
+    for (; hm_tri_dest_of(t, spoke) != b; spoke = hm_tri_turn(t, spoke))
+        if (t->region)
+            t->region[spoke / 3] = beyond;
+    if (marks)
+        hm_tri_set_marks(t, spoke, marks);
+}
+
 enum hm_err hm_tri_split(struct hm_tri *t, int32_t e, double x, double y, int32_t *v,
                          struct hm_diag *d)
 {
     const double p[2] = {x, y};
-    if (!isfinite(x) || !isfinite(y) || !hm_tri_can_split(t, e, p))
+    bool finite = isfinite(x) && isfinite(y), on = finite && hm_tri_can_split(t, e, p);
+    if (finite && !on && !is_within(t, e / 3, p))
+        e = t->half[e].twin;
+    if (!finite || (!on && !is_within(t, e / 3, p)))
         return hm_fail_at(d, HM_EGEOM, x, y, "an edge cannot be split here");
     enum hm_err err = make_room(t, d);
     if (err)
         return err;
     *v = hm_tri_take_vertex(t, x, y);
-    hm_tri_split_edge(t, e, *v);
+    if (on)
+        hm_tri_split_edge(t, e, *v);
+    else
+        split_beside(t, e, *v);
     return legalize_around(t, *v, d); /* off the edge by rounding: any edge at v may be wrong */
 }
 

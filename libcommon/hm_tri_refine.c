@@ -1,0 +1,491 @@
+#include "hm_tri_refine.h"
+
+#include "hm_pred.h"
+#include "hm_tri_topology.h"
+#include "hm_tri_worklist.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* A constraint, or a piece of one, between two vertices. */
+struct segment {
+    int32_t a, b;
+};
+
+struct refine {
+    struct hm_tri *t;
+    const struct hm_tri_quality *q;
+    struct hm_tri_refined *done;
+    struct hm_diag *d;
+    struct hm_tri_worklist bad;
+    struct segment *split; /* constraints to be split, a stack */
+    size_t n_split, cap_split;
+    int64_t added;          /* vertices, those taken out again included */
+    int32_t first;          /* vertices from here on are ours … */
+    struct segment *parent; /* … and lie on these constraints, or on HM_TRI_NONE */
+    size_t n_parent, cap_parent;
+    double cos2; /* square of the cosine of the minimum angle */
+    double lens; /* square of the cosine of twice that */
+    double off;  /* the farthest off-centre, in lengths of the edge */
+};
+
+static bool is_inside(const struct refine *r, int32_t tri)
+{
+    return hm_tri_is_solid(r->t, tri) && hm_tri_region(r->t, tri) != r->q->outside;
+}
+
+static double dot_at(const double *o, const double *a, const double *b)
+{
+    return (a[0] - o[0]) * (b[0] - o[0]) + (a[1] - o[1]) * (b[1] - o[1]);
+}
+
+static double length2(const double *a, const double *b)
+{
+    return dot_at(a, b, b);
+}
+
+/* --- what is bad --- */
+
+/* Does p see the edge under more than 180 degrees less twice the minimum angle? (Chew's lens; where
+ * no such p is, no triangle on the edge has a circumcentre beyond it and good angles.) */
+static bool encroaches(const struct refine *r, int32_t e, const double *p)
+{
+    const double *a = hm_tri_at(r->t, r->t->half[e].org),
+                 *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, e));
+    double dot = dot_at(p, a, b);
+    return dot < 0 && dot * dot >= r->lens * length2(p, a) * length2(p, b);
+}
+
+static enum hm_err push_segment(struct refine *r, int32_t e)
+{
+    if (!hm_grow(&r->split, &r->cap_split, r->n_split + 1, sizeof *r->split))
+        return hm_fail_memory(r->d);
+    r->split[r->n_split++] = (struct segment){r->t->half[e].org, hm_tri_dest_of(r->t, e)};
+    return HM_OK;
+}
+
+/* Queue a constraint that has a vertex too near. */
+static enum hm_err check_segment(struct refine *r, int32_t e)
+{
+    if (!hm_tri_marks_of(r->t, e))
+        return HM_OK;
+    for (int side = 0; side < 2; side++, e = r->t->half[e].twin)
+        if (is_inside(r, e / 3) && encroaches(r, e, hm_tri_at(r->t, hm_tri_apex_of(r->t, e))))
+            return push_segment(r, e);
+    return HM_OK;
+}
+
+/* The corner at which the constraints of two vertices meet, or HM_TRI_NONE. */
+static int32_t common_corner(const struct refine *r, int32_t p, int32_t q)
+{
+    if (p < r->first || q < r->first)
+        return HM_TRI_NONE;
+    struct segment s = r->parent[p - r->first], u = r->parent[q - r->first];
+    if (s.a == HM_TRI_NONE || u.a == HM_TRI_NONE || (s.a == u.a && s.b == u.b))
+        return HM_TRI_NONE;
+    if (s.a == u.a || s.a == u.b)
+        return s.a;
+    return s.b == u.a || s.b == u.b ? s.b : HM_TRI_NONE;
+}
+
+/* Is the shortest edge, e, one between two constraints on a circle about their corner? Then it is
+ * the corner that makes it short, and to split its triangle would only make shorter ones. Equally
+ * when the small angle is between two constraints itself. */
+static bool is_forced(const struct refine *r, int32_t e)
+{
+    if (hm_tri_marks_of(r->t, hm_tri_next(e)) && hm_tri_marks_of(r->t, hm_tri_prev(e)))
+        return true;
+    int32_t p = r->t->half[e].org, q = hm_tri_dest_of(r->t, e), corner = common_corner(r, p, q);
+    if (corner == HM_TRI_NONE)
+        return false;
+    double one = length2(hm_tri_at(r->t, corner), hm_tri_at(r->t, p));
+    double other = length2(hm_tri_at(r->t, corner), hm_tri_at(r->t, q));
+    return one < 1.001 * other && one > 0.999 * other;
+}
+
+static double largest_area(const struct refine *r, const double *a, const double *b,
+                           const double *c, int32_t tri)
+{
+    double bound = r->q->max_area > 0 ? r->q->max_area : INFINITY;
+    if (r->q->area_at) {
+        double here = r->q->area_at(r->q->arg, (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3,
+                                    hm_tri_region(r->t, tri));
+        bound = here > 0 && here < bound ? here : bound;
+    }
+    return bound;
+}
+
+/* The shortest edge of a triangle. */
+static int32_t shortest_edge(const struct hm_tri *t, int32_t tri, double *least)
+{
+    int32_t shortest = HM_TRI_NONE;
+    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++) {
+        double length = length2(hm_tri_at(t, t->half[e].org), hm_tri_at(t, hm_tri_dest_of(t, e)));
+        if (shortest == HM_TRI_NONE || length < *least) {
+            *least = length;
+            shortest = e;
+        }
+    }
+    return shortest;
+}
+
+struct verdict {
+    int32_t shortest; /* edge; the smallest angle is opposite */
+    double length2;
+    bool small, large;
+};
+
+static struct verdict judge(const struct refine *r, int32_t tri)
+{
+    struct verdict is = {.small = false};
+    is.shortest = shortest_edge(r->t, tri, &is.length2);
+    const double *a = hm_tri_at(r->t, r->t->half[is.shortest].org);
+    const double *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, is.shortest));
+    const double *c = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
+    double dot = dot_at(c, a, b);
+    is.small = dot * dot > r->cos2 * length2(c, a) * length2(c, b);
+    is.large = hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
+    return is;
+}
+
+static enum hm_err check_triangle(struct refine *r, int32_t tri)
+{
+    if (!is_inside(r, tri))
+        return HM_OK;
+    struct verdict is = judge(r, tri);
+    if (!is.large && (!is.small || is_forced(r, is.shortest)))
+        return HM_OK;
+    const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    return hm_tri_worklist_push(
+        &r->bad, (struct hm_tri_work){tri, {h[0].org, h[1].org, h[2].org}, 0}, is.length2, r->d);
+}
+
+/* Look at all triangles and constraints around a vertex. */
+static enum hm_err check_around(struct refine *r, int32_t v)
+{
+    int32_t first = r->t->edge[v], e = first;
+    enum hm_err err = HM_OK;
+    do {
+        err = check_segment(r, e);
+        if (!err)
+            err = check_segment(r, hm_tri_next(e));
+        if (!err)
+            err = check_triangle(r, e / 3);
+        e = hm_tri_turn(r->t, e);
+    } while (!err && e != first);
+    return err;
+}
+
+static enum hm_err note_parent(struct refine *r, int32_t v, struct segment parent)
+{
+    r->added++;
+    if (!hm_grow(&r->parent, &r->cap_parent, (size_t)(v - r->first) + 1, sizeof *r->parent))
+        return hm_fail_memory(r->d);
+    r->parent[v - r->first] = parent;
+    return HM_OK;
+}
+
+/* --- constraints split --- */
+
+/* Vertices of ours inside the circle on the constraint give way: they would make short edges. */
+static enum hm_err clear_side(struct refine *r, struct segment s)
+{
+    struct hm_tri *t = r->t;
+    for (;;) {
+        int32_t e = hm_tri_edge_between(t, s.a, s.b), v = hm_tri_apex_of(t, e);
+        if (v < r->first || r->parent[v - r->first].a != HM_TRI_NONE || !is_inside(r, e / 3) ||
+            dot_at(hm_tri_at(t, v), hm_tri_at(t, s.a), hm_tri_at(t, s.b)) >= 0)
+            return HM_OK;
+        enum hm_err err = hm_tri_remove(t, v, r->d);
+        r->done->inside -= !err;
+        for (size_t i = 0; !err && i <= t->left.n; i++)
+            err = check_around(r, t->left.link[i].v);
+        if (err)
+            return err;
+    }
+}
+
+/* Where to split: at the middle; or, when the next constraint is near, at a power of two from the
+ * corner between, so that both are split on the same circles. */
+static double choose_part(const struct refine *r, int32_t e)
+{
+    bool at_org = false, at_dest = false;
+    int32_t sides[2] = {e, r->t->half[e].twin};
+    for (int i = 0; i < 2; i++)
+        if (is_inside(r, sides[i] / 3)) {
+            bool begin = hm_tri_marks_of(r->t, hm_tri_prev(sides[i])) != 0;
+            bool end = hm_tri_marks_of(r->t, hm_tri_next(sides[i])) != 0;
+            at_org = at_org || (i ? end : begin);
+            at_dest = at_dest || (i ? begin : end);
+        }
+    if (at_org == at_dest)
+        return 0.5;
+    int exponent;
+    double length =
+        sqrt(length2(hm_tri_at(r->t, r->t->half[e].org), hm_tri_at(r->t, hm_tri_dest_of(r->t, e))));
+    frexp(length / 1.5, &exponent); /* a power of two in 1/3 .. 2/3 of the length */
+    double part = ldexp(1, exponent - 1) / length;
+    return at_org ? part : 1 - part;
+}
+
+/* Split e; where that would fold a triangle, because those outside are no thicker than rounding
+ * made them, a few last digits into the triangle of e. HM_EGEOM when it is too short for that too.
+ */
+static enum hm_err split_near(struct refine *r, int32_t e, int32_t *v)
+{
+    struct hm_tri *t = r->t;
+    const double *a = hm_tri_at(t, t->half[e].org), *b = hm_tri_at(t, hm_tri_dest_of(t, e));
+    double part = choose_part(r, e), p[2];
+    for (int k = 0; k < 2; k++)
+        p[k] = a[k] + part * (b[k] - a[k]);
+    enum hm_err err = hm_tri_split(t, e, p[0], p[1], v, NULL);
+    if (err != HM_EGEOM)
+        return err;
+    if (!is_inside(r, e / 3))
+        e = t->half[e].twin;
+    const double *apex = hm_tri_at(t, hm_tri_apex_of(t, e));
+    double step = DBL_EPSILON * (fabs(p[0]) + fabs(p[1])) / sqrt(length2(apex, p));
+    for (int i = 0; i < 4 && err == HM_EGEOM; i++, step *= 2)
+        err = hm_tri_split(t, e, p[0] + step * (apex[0] - p[0]), p[1] + step * (apex[1] - p[1]), v,
+                           NULL);
+    return err;
+}
+
+static struct segment parent_of(const struct refine *r, struct segment s)
+{
+    int32_t ends[2] = {s.a, s.b};
+    for (int i = 0; i < 2; i++)
+        if (ends[i] >= r->first && r->parent[ends[i] - r->first].a != HM_TRI_NONE)
+            return r->parent[ends[i] - r->first];
+    return s;
+}
+
+static enum hm_err split_segment(struct refine *r, struct segment s)
+{
+    struct hm_tri *t = r->t;
+    int32_t e = hm_tri_edge_between(t, s.a, s.b), v;
+    if (e == HM_TRI_NONE || !hm_tri_marks_of(t, e))
+        return HM_OK;
+    enum hm_err err = clear_side(r, s);
+    if (!err)
+        err = clear_side(r, (struct segment){s.b, s.a});
+    if (err)
+        return err;
+    err = split_near(r, hm_tri_edge_between(t, s.a, s.b), &v);
+    if (err == HM_EGEOM)
+        return HM_OK;
+    if (err)
+        return hm_fail_memory(r->d);
+    err = note_parent(r, v, parent_of(r, s));
+    r->done->on_segments += !err;
+    return err ? err : check_around(r, v);
+}
+
+/* --- triangles split --- */
+
+/* The circumcentre; or, when that is far from the shortest edge, the point before it on the way
+ * there that makes just a good enough triangle with it. */
+static void off_centre(const struct refine *r, int32_t e, double *p)
+{
+    const double *a = hm_tri_at(r->t, r->t->half[e].org),
+                 *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, e));
+    const double *c = hm_tri_at(r->t, hm_tri_apex_of(r->t, e));
+    double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+    double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
+    double x = (cy * bb - by * cc) / twice, y = (bx * cc - cx * bb) / twice;
+    double ox = 0.5 * bx - r->off * by, oy = 0.5 * by + r->off * bx;
+    if (r->off > 0 && ox * ox + oy * oy < x * x + y * y) {
+        x = ox;
+        y = oy;
+    }
+    p[0] = a[0] + x;
+    p[1] = a[1] + y;
+}
+
+enum { FAR = 10000 }; /* steps of a walk: more are a walk in circles */
+
+/* Walk to p; *tri becomes the triangle that holds it. A constraint on the way, or under p, is
+ * returned. */
+static int32_t walk(const struct refine *r, const double *p, int32_t *tri)
+{
+    const struct hm_tri *t = r->t;
+    int32_t from = HM_TRI_NONE;
+    for (int step = 0; step < FAR; step++) {
+        int32_t cross = HM_TRI_NONE;
+        for (int32_t e = 3 * *tri; e < 3 * *tri + 3 && cross == HM_TRI_NONE; e++) {
+            int side = hm_pred_orient_fast(hm_tri_at(t, t->half[e].org),
+                                           hm_tri_at(t, hm_tri_dest_of(t, e)), p);
+            if (e != from && (side < 0 || (side == 0 && hm_tri_marks_of(t, e))))
+                cross = e;
+        }
+        if (cross == HM_TRI_NONE || hm_tri_marks_of(t, cross))
+            return cross;
+        from = t->half[cross].twin;
+        *tri = from / 3;
+    }
+    return HM_TRI_NONE;
+}
+
+/* Queue the constraints that p would be too near: those on the rim of the triangles whose circles
+ * it is in. They are in t->hole on return. */
+static enum hm_err check_place(struct refine *r, const double *p, int32_t tri)
+{
+    struct hm_tri *t = r->t;
+    t->n_hole = 0;
+    enum hm_err err = hm_tri_hole_add(t, tri, r->d);
+    for (size_t i = 0; !err && i < t->n_hole; i++)
+        for (int32_t e = 3 * t->hole[i]; !err && e < 3 * t->hole[i] + 3; e++) {
+            int32_t f = t->half[e].twin;
+            if (hm_tri_marks_of(t, e)) {
+                if (encroaches(r, e, p))
+                    err = push_segment(r, e);
+                continue;
+            }
+            bool known = false;
+            for (size_t k = 0; !known && k < t->n_hole; k++)
+                known = t->hole[k] == f / 3;
+            if (!known && hm_pred_incircle_unique_fast(hm_tri_at(t, t->half[f].org),
+                                                       hm_tri_at(t, hm_tri_dest_of(t, f)),
+                                                       hm_tri_at(t, hm_tri_apex_of(t, f)), p) > 0)
+                err = hm_tri_hole_add(t, f / 3, r->d);
+        }
+    return err;
+}
+
+static bool is_there(const struct hm_tri *t, const struct hm_tri_work *work)
+{
+    const struct hm_tri_half *h = t->half + 3 * (size_t)work->tri;
+    return h[0].org == work->v[0] && h[1].org == work->v[1] && h[2].org == work->v[2];
+}
+
+static bool is_corner(const struct hm_tri *t, int32_t tri, const double *p)
+{
+    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++) {
+        const double *q = hm_tri_at(t, t->half[e].org);
+        if (p[0] == q[0] && p[1] == q[1])
+            return true;
+    }
+    return false;
+}
+
+enum { TRIES = 64 }; /* of a triangle whose place is taken by constraints, which may be too short */
+
+static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
+{
+    double p[2], length;
+    int32_t tri = work->tri, v;
+    size_t before = r->n_split;
+    off_centre(r, shortest_edge(r->t, tri, &length), p);
+    if (!isfinite(p[0]) || !isfinite(p[1]))
+        return HM_OK;
+    int32_t block = walk(r, p, &tri);
+    enum hm_err err = HM_OK;
+    if (block != HM_TRI_NONE)
+        err = push_segment(r, block);
+    else if (is_corner(r->t, tri, p))
+        return HM_OK; /* smaller than doubles can tell */
+    else
+        err = check_place(r, p, tri);
+    if (!err && r->n_split > before) /* again, when they are split */
+        return work->tries++ < TRIES ? hm_tri_worklist_push(&r->bad, *work, length, r->d) : HM_OK;
+    if (!err)
+        err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
+    if (!err)
+        err = note_parent(r, v, (struct segment){HM_TRI_NONE, HM_TRI_NONE});
+    r->done->inside += !err;
+    return err ? err : check_around(r, v);
+}
+
+/* --- all of it --- */
+
+/* The outline of what is refined is made of constraints, and beyond it is outside. */
+static enum hm_err close_outline(struct refine *r)
+{
+    struct hm_tri *t = r->t;
+    enum hm_err err = hm_tri_need_edges(t, r->d);
+    if (!err)
+        err = hm_tri_need_marks(t, r->d);
+    if (!err)
+        err = hm_tri_need_regions(t, r->d);
+    for (int32_t e = 0; !err && e < 3 * t->triangles; e++) {
+        if (t->half[e - e % 3].org == HM_TRI_FREE || !hm_tri_is_ghost(t, e / 3))
+            continue;
+        t->region[e / 3] = r->q->outside;
+        if (hm_tri_apex_of(t, e) == HM_TRI_INFINITY && !t->marks[e])
+            hm_tri_set_marks(t, e, r->q->hull_marks);
+    }
+    return err;
+}
+
+static enum hm_err refine(struct refine *r)
+{
+    struct hm_tri_work work;
+    enum hm_err err = close_outline(r);
+    for (int32_t e = 0; !err && e < 3 * r->t->triangles; e++)
+        if (is_inside(r, e / 3))
+            err = check_segment(r, e);
+    for (int32_t k = 0; !err && k < r->t->triangles; k++)
+        err = check_triangle(r, k);
+    while (!err) {
+        r->done->capped = r->q->most > 0 && r->added >= r->q->most;
+        if (r->done->capped)
+            break;
+        if (r->n_split > 0)
+            err = split_segment(r, r->split[--r->n_split]);
+        else if (!hm_tri_worklist_pop(&r->bad, &work))
+            break;
+        else if (is_there(r->t, &work))
+            err = split_triangle(r, &work);
+    }
+    return err;
+}
+
+static void report(struct refine *r)
+{
+    double cos2 = 0;
+    for (int32_t k = 0; k < r->t->triangles; k++) {
+        if (!is_inside(r, k))
+            continue;
+        struct verdict is = judge(r, k);
+        const double *a = hm_tri_at(r->t, r->t->half[is.shortest].org);
+        const double *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, is.shortest));
+        const double *c = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
+        double dot = dot_at(c, a, b), here = dot * dot / (length2(c, a) * length2(c, b));
+        r->done->small += is.small;
+        r->done->large += is.large;
+        if (here > cos2) {
+            cos2 = here;
+            r->done->x = c[0];
+            r->done->y = c[1];
+        }
+    }
+    r->done->smallest = acos(sqrt(fmin(cos2, 1))) * 180 / acos(-1);
+}
+
+enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
+                          struct hm_tri_refined *done, struct hm_diag *d)
+{
+    struct hm_tri_refined unasked;
+    if (!(q->min_angle >= 0 && q->min_angle <= 40) || !(q->max_area >= 0) || q->hull_marks == 0)
+        return hm_fail(d, HM_EARG, "bounds of the refinement are out of range");
+    struct refine *r = hm_alloc0(1, sizeof *r);
+    if (!r)
+        return hm_fail_memory(d);
+    double angle = q->min_angle * acos(-1) / 180;
+    *r = (struct refine){.t = t, .q = q, .done = done ? done : &unasked, .d = d};
+    *r->done = (struct hm_tri_refined){0};
+    r->first = t->vertices;
+    r->cos2 = q->min_angle > 0 ? cos(angle) * cos(angle) : 2;
+    r->lens = cos(2 * angle) * cos(2 * angle);
+    r->off = q->min_angle > 0 ? 0.475 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : 0;
+    hm_tri_worklist_init(&r->bad);
+    enum hm_err err = refine(r);
+    if (!err)
+        report(r);
+    free(r->bad.item);
+    free(r->split);
+    free(r->parent);
+    free(r);
+    return err;
+}

@@ -1,0 +1,44 @@
+/* hm_tri_refine: a constrained triangulation made finer until its triangles are good. Layer 3, on
+ * hm_tri.
+ *
+ * Delaunay refinement (Ruppert 1995; Chew 1993; off-centres, Üngör 2004): a vertex goes near the
+ * circumcentre of a bad triangle, the one with the shortest edge first; when it would come too near
+ * a constraint, that constraint is split instead. Small angles between constraints cannot be
+ * mended: there constraints are split on circles about the corner, and triangles that the corner
+ * forces are spared (Miller, Pav & Walkington 2003).
+ */
+#ifndef HM_TRI_REFINE_H
+#define HM_TRI_REFINE_H
+
+#include "hm_tri.h"
+
+/* What is wanted. Zero is "no bound" everywhere. */
+struct hm_tri_quality {
+    double min_angle; /* degrees; it surely ends up to 20, in practice up to 33. At most 40 */
+    double max_area;
+
+    /* the largest area around x, y in a region, or 0; NULL: max_area alone */
+    double (*area_at)(void *arg, double x, double y, int32_t region);
+    void *arg;
+
+    int32_t outside;    /* triangles of this region are left alone: holes, and beyond the outline */
+    int32_t hull_marks; /* hull edges that are no constraints become one with these marks (not 0) */
+    int64_t most; /* no more than so many vertices are added, those taken out again included */
+};
+
+/* What was done. */
+struct hm_tri_refined {
+    int64_t on_segments, inside; /* vertices added */
+    int64_t small;               /* triangles still under the minimum angle … */
+    double smallest, x, y;       /* … the smallest angle of all in degrees, and where */
+    int64_t large;               /* triangles still over their area */
+    bool capped;                 /* `most` was reached */
+};
+
+/* Refine all solid triangles whose region is not q->outside (ghosts become it). Vertices are only
+ * added; those of before stay, as do all constraints, split into pieces. done may be NULL. HM_EARG
+ * for bounds out of range, HM_ENOMEM. */
+enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
+                          struct hm_tri_refined *done, struct hm_diag *d);
+
+#endif

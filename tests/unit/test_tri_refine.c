@@ -1,0 +1,200 @@
+/* Refinement: bounds are kept, what was there stays, small angles of the input end it all the same.
+ */
+#include "hm_pred.h"
+#include "hm_tri_refine.h"
+#include "tap.h"
+#include "tri_points.h"
+
+#include <string.h>
+
+/* A closed outline of n points, everything beyond it region -1. */
+static struct hm_tri *polygon(const double *xy, int n, int points)
+{
+    struct hm_tri *t;
+    struct hm_tri_segment s[64];
+    if (hm_tri_build(&t, xy, (size_t)points, 2, 1, NULL))
+        exit(2);
+    for (int i = 0; i < n; i++)
+        s[i] = (struct hm_tri_segment){hm_tri_of_input(t, (size_t)i),
+                                       hm_tri_of_input(t, (size_t)((i + 1) % n)), 1};
+    int32_t beyond = 0;
+    while (hm_tri_is_solid(t, beyond))
+        beyond++;
+    if (hm_tri_constrain(t, s, (size_t)n, NULL, NULL) || hm_tri_flood(t, beyond, 1, -1, NULL))
+        exit(2);
+    return t;
+}
+
+static double angle_at(const double *o, const double *a, const double *b)
+{
+    double ax = a[0] - o[0], ay = a[1] - o[1], bx = b[0] - o[0], by = b[1] - o[1];
+    return fabs(atan2(ax * by - ay * bx, ax * bx + ay * by)) * 180 / acos(-1);
+}
+
+struct measure {
+    int triangles;
+    double area, smallest, largest, mark_length;
+    double x, y; /* of the smallest angle */
+};
+
+static struct measure measure(const struct hm_tri *t, int32_t outside)
+{
+    struct measure m = {.smallest = 180};
+    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
+        if (!hm_tri_is_solid(t, e / 3))
+            continue;
+        const double *a = hm_tri_xy(t, hm_tri_org(t, e)), *b = hm_tri_xy(t, hm_tri_dest(t, e));
+        const double *c = hm_tri_xy(t, hm_tri_apex(t, e));
+        if (hm_tri_region(t, e / 3) == outside)
+            continue;
+        if (hm_tri_marks(t, e))
+            m.mark_length += hypot(a[0] - b[0], a[1] - b[1]);
+        m.triangles += e % 3 == 0;
+        m.area += hm_area2(a, b, c) / 6;
+        m.largest = fmax(m.largest, hm_area2(a, b, c) / 2);
+        if (angle_at(c, a, b) < m.smallest) {
+            m.smallest = angle_at(c, a, b);
+            m.x = c[0];
+            m.y = c[1];
+        }
+    }
+    return m;
+}
+
+static bool is_sound(const struct hm_tri *t)
+{
+    struct hm_diag d = {0};
+    bool good = !hm_tri_check_topology(t, &d) && !hm_tri_check_delaunay(t, &d);
+    if (!good)
+        printf("# %s (%.17g %.17g)\n", d.text, d.x, d.y);
+    return good;
+}
+
+static const double shape[16] = {0, 0, 10, 0, 10, 4, 6, 4, 6, 6, 10, 6, 10, 10, 0, 10};
+
+static void bounds(void)
+{
+    static const double angle[4] = {0, 20, 30, 33}, area[3] = {0, 0.5, 0.02};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 3; k++) {
+            struct hm_tri *t = polygon(shape, 8, 8);
+            struct hm_tri_quality q = {
+                .min_angle = angle[i], .max_area = area[k], .outside = -1, .hull_marks = 1};
+            struct hm_tri_refined done;
+            bool good = !hm_tri_refine(t, &q, &done, NULL) && is_sound(t);
+            struct measure m = measure(t, -1);
+            good = good && done.small == 0 && done.large == 0 && !done.capped &&
+                   m.smallest >= angle[i] - 1e-9 && (area[k] == 0 || m.largest <= area[k]) &&
+                   fabs(m.area - 92) < 1e-9 && fabs(m.mark_length - 48) < 1e-9 &&
+                   fabs(m.smallest - done.smallest) < 1e-6;
+            ok(good, "angle %g, area %g: %d triangles, smallest angle %.1f", angle[i], area[k],
+               m.triangles, m.smallest);
+            hm_tri_free(t);
+        }
+}
+
+/* A needle of 3 degrees: refinement ends, and only triangles at the needle's point are small. */
+static void needle(void)
+{
+    const double xy[10] = {0, 0, 20, 0, 20, 12, 8, 12, 20, 20 * tan(3 * acos(-1) / 180)};
+    struct hm_tri *t = polygon(xy, 4, 5);
+    struct hm_tri_segment s = {hm_tri_of_input(t, 0), hm_tri_of_input(t, 4), 2};
+    struct hm_tri_quality q = {
+        .min_angle = 30, .max_area = 0.1, .outside = -1, .hull_marks = 1, .most = 20000};
+    struct hm_tri_refined done;
+    bool good = !hm_tri_constrain(t, &s, 1, NULL, NULL) && !hm_tri_refine(t, &q, &done, NULL) &&
+                is_sound(t);
+    ok(good && !done.capped, "a needle of 3 degrees: %lld vertices, %lld small triangles",
+       (long long)(done.on_segments + done.inside), (long long)done.small);
+    int far = 0;
+    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++)
+        if (hm_tri_is_solid(t, e / 3) && hm_tri_region(t, e / 3) != -1) {
+            const double *c = hm_tri_xy(t, hm_tri_apex(t, e));
+            double here =
+                angle_at(c, hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e)));
+            far += here < 25 && c[1] > 1.2 * xy[9];
+        }
+    ok(far == 0 && done.smallest > 2.9, "all of them in the needle, none under its own angle");
+    hm_tri_free(t);
+}
+
+static double finer_to_the_left(void *arg, double x, double y, int32_t region)
+{
+    (void)y;
+    (void)region;
+    return *(double *)arg * (0.01 + x * x / 50);
+}
+
+static void sizes(void)
+{
+    struct hm_tri *t = polygon(shape, 8, 8);
+    double factor = 0.5;
+    struct hm_tri_quality q = {.min_angle = 25,
+                               .outside = -1,
+                               .hull_marks = 1,
+                               .area_at = finer_to_the_left,
+                               .arg = &factor};
+    struct hm_tri_refined done;
+    bool good = !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) && !done.large && !done.small;
+    ok(good, "a size that varies over space: %d triangles", measure(t, -1).triangles);
+    hm_tri_free(t);
+    t = polygon(shape, 8, 8);
+    q.most = 100;
+    good = !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) && done.capped &&
+           done.on_segments + done.inside <= 100 && done.large > 0;
+    ok(good, "the cap holds, and is told");
+    hm_tri_free(t);
+}
+
+/* Random points, random constraints: whatever comes, it ends and is sound. */
+static void random_drawings(void)
+{
+    bool good = true;
+    int64_t added = 0, small = 0, capped = 0;
+    for (int round = 0; good && round < 60; round++) {
+        double xy[40];
+        for (int i = 0; i < 40; i++)
+            xy[i] = round % 2 ? uniform() : (double)(draw() % 12);
+        struct hm_tri *t;
+        if (hm_tri_build(&t, xy, 20, 2, 1, NULL))
+            continue;
+        for (int i = 0; good && i < 6; i++) {
+            struct hm_tri_segment s = {hm_tri_of_input(t, draw() % 20),
+                                       hm_tri_of_input(t, draw() % 20), 2};
+            good = !hm_tri_constrain(t, &s, 1, NULL, NULL);
+        }
+        double before = measure(t, -2).area;
+        struct hm_tri_quality q = {.min_angle = 25, .outside = -1, .hull_marks = 1, .most = 20000};
+        struct hm_tri_refined done;
+        good = good && !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) &&
+               fabs(measure(t, -1).area - before) < 1e-9 * before;
+        added += done.on_segments + done.inside;
+        small += done.small;
+        capped += done.capped;
+        hm_tri_free(t);
+    }
+    ok(good && capped == 0, "60 dirty drawings: %lld vertices added, %lld triangles small",
+       (long long)added, (long long)small);
+}
+
+static void refusals(void)
+{
+    struct hm_tri *t = polygon(shape, 8, 8);
+    struct hm_tri_quality q = {.min_angle = 60, .hull_marks = 1};
+    ok(hm_tri_refine(t, &q, NULL, NULL) == HM_EARG, "no angle of 60 degrees");
+    q = (struct hm_tri_quality){.min_angle = NAN, .hull_marks = 1};
+    ok(hm_tri_refine(t, &q, NULL, NULL) == HM_EARG, "nor one that is no number");
+    q = (struct hm_tri_quality){.max_area = 1, .hull_marks = 0};
+    ok(hm_tri_refine(t, &q, NULL, NULL) == HM_EARG, "the hull needs marks");
+    hm_tri_free(t);
+}
+
+int main(void)
+{
+    bounds();
+    needle();
+    sizes();
+    random_drawings();
+    refusals();
+    return done();
+}

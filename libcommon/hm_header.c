@@ -103,9 +103,21 @@ const char *hm_header_get(const struct hm_header *h, const char *name)
     return i < h->nkeys ? h->keys[i].value : NULL;
 }
 
+/* A key is one line of the header: a line break in it would begin another. */
+static enum hm_err check_key(const char *name, const char *value, struct hm_diag *d)
+{
+    if (!strpbrk(name, "\r\n") && !strpbrk(value, "\r\n"))
+        return HM_OK;
+    return hm_fail(d, HM_EARG, "a line break in the header line #%.*s", (int)strcspn(name, "\r\n"),
+                   name);
+}
+
 enum hm_err hm_header_add(struct hm_header *h, const char *name, const char *value,
                           struct hm_diag *d)
 {
+    enum hm_err err = check_key(name, value, d);
+    if (err)
+        return err;
     struct hm_key *grown = realloc(h->keys, (h->nkeys + 1) * sizeof *grown);
     if (!grown)
         return hm_fail_memory(d);
@@ -139,6 +151,9 @@ enum hm_err hm_header_set(struct hm_header *h, const char *name, const char *val
     }
     if (i == h->nkeys)
         return hm_header_add(h, name, value, d);
+    enum hm_err err = check_key(name, value, d);
+    if (err)
+        return err;
     char *copy = strdup(value); /* first: value may be the one that is replaced */
     if (!copy)
         return hm_fail_memory(d);

@@ -51,12 +51,13 @@ enum hm_err hm_header_copy(struct hm_header *to, const struct hm_header *from, s
 /* Value of a key ("crs", "units", "name", "role", …), or NULL. */
 const char *hm_header_get(const struct hm_header *h, const char *name);
 
-/* Set, replace in place, or (value NULL) remove a key. */
+/* Set, replace in place, or (value NULL) remove a key. HM_EARG for a line break in name or value.
+ */
 enum hm_err hm_header_set(struct hm_header *h, const char *name, const char *value,
                           struct hm_diag *d);
 
 /* Append a key, even one that is there already: `#string` may stand for several boundary strings.
- */
+ * HM_EARG as above. */
 enum hm_err hm_header_add(struct hm_header *h, const char *name, const char *value,
                           struct hm_diag *d);
 

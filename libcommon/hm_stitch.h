@@ -16,7 +16,8 @@ struct hm_stitched {
     struct hm_joined joined;
 };
 
-/* Add `lower`. Where it overlaps or touches what is there it is cut back by the buffer (metres;
+/* Add `lower`; both meshes must be without fault but for pieces, loops that touch and spare nodes
+ * (hm_meshcheck). Where it overlaps or touches what is there it is cut back by the buffer (metres;
  * negative: suited to the elements, hm_cut), and the gap is filled. A mesh that lies beside what is
  * there, with nodes in common, is joined by them, and one apart is added as it is. Nodes inside the
  * gap take their height from the terrain (may be NULL) where it knows one, else from `lower`. */

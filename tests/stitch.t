@@ -215,12 +215,17 @@ sed 's/^t 0 1 31 0/t 1 0 31 0/' main.hm >clockwise.hm
 must_fail "a clockwise element is refused, with its place" 2 'area.*at|twice.*at' stitch clockwise.hm
 awk '{ print } /^#data/ { print "v 1000 1000 0 0 0" } ' main.hm | awk '/^[tq]/ { for (i = 2; i < NF; i++) $i++ } { print }' >isolated.hm
 ok "a node without element is left out" sh -c 'stitch isolated.hm 2>said | grep -c ^v >n && [ $(cat n) = 341 ] && grep -q "1 nodes without an element" said'
+printf '#hm 1 mesh text\n#name bad\n#role regular\n#data\nv 0 0 0 1 1\nv 10 0 0 1 1\nv 0 10 0 1 1\nt 0 1 2 1\nt 2 1 0 1\n#end\n' >bad.hm
+must_fail "it is said which mesh is at fault, and where" 2 'mesh 2 of 2 \(bad\): .*area.* at [0-9]' stitch -c main.hm bad.hm
+must_fail "also when it is the same twice" 2 'mesh 1 of 2 \(bad\)' stitch -c bad.hm bad.hm
 sed '0,/^v 0 -20 [^ ]* /s//v 0 -20 nan /' main.hm >nan.hm
 must_fail "a missing height is refused" 2 'height.* at 0 -20' stitch nan.hm
 channel over 10 5 200 5 20 9 4 triangles irregular >over.hm
 must_fail "an irregular mesh that overlaps is refused" 2 'overlap.* at ' stitch main.hm over.hm
 must_fail "a negative buffer" 2 'buffer' stitch -w -1 main.hm
 must_fail "a negative tolerance" 2 'tolerance' stitch -T -1 main.hm
+must_fail "a name with a line break" 2 'name.*control' stitch -N "$(printf 'a\n#end')" main.hm
+must_fail "an empty name" 2 'name is not empty' stitch -N '' main.hm
 must_fail "no mesh" 2 'mesh' stitch flat.xyz
 sed '$d' main.hm >cut.hm
 must_fail "a mesh without its end" 2 'cut.hm.*end' stitch t.hm cut.hm

@@ -6,6 +6,8 @@
 #include "hm_rcm.h"
 #include "hm_stitch.h"
 
+#include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -151,8 +153,23 @@ static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_j
     hm_terrain_free(terrain);
 }
 
+/* Faults that no joining mends, and that cutting could trip over, are found while it is still known
+ * which mesh has them. Loops that touch, pieces and spare nodes may yet come right. */
+static void check_inputs(struct hm_cli *cli, const struct hm_inputs *in)
+{
+    struct hm_meshcheck c;
+    for (size_t i = 0; in->nmeshes > 1 && i < in->nmeshes; i++) {
+        struct hm_diag d = {0};
+        hm_cli_check(cli, hm_meshcheck_run(&in->mesh[i], &c, &d), &d);
+        c.count[HM_FAULT_ISOLATED] = c.count[HM_FAULT_TOUCH] = 0;
+        snprintf(d.source, sizeof d.source, "mesh %zu of %zu (%.200s)", i + 1, in->nmeshes,
+                 name_of(&in->mesh[i]));
+        hm_cli_check(cli, hm_meshcheck_verdict(&c, true, &d), &d);
+    }
+}
+
 /* Nothing that breaks a rule is written. */
-static void check(struct hm_cli *cli, const struct hm_mesh *m, const struct hm_inputs *in)
+static void check_result(struct hm_cli *cli, const struct hm_mesh *m, const struct hm_inputs *in)
 {
     struct hm_diag d = {0};
     struct hm_meshcheck c;
@@ -190,6 +207,17 @@ static void write_mesh(struct hm_cli *cli, struct hm_mesh *m, const struct hm_in
     hm_cli_check(cli, hm_mesh_write(m, hm_cli_writer(cli), &d), &d);
 }
 
+static void check_options(struct hm_cli *cli)
+{
+    if (cmd.has_buffer && cmd.buffer < 0)
+        hm_cli_die(cli, "--buffer must not be negative");
+    if (cmd.has_tolerance && cmd.tolerance < 0)
+        hm_cli_die(cli, "--tolerance must not be negative");
+    for (const char *c = cmd.name; c && (*c || c == cmd.name); c++)
+        if (*c == 0 || iscntrl((unsigned char)*c))
+            hm_cli_die(cli, "--name: a name is not empty and has no control characters");
+}
+
 int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
@@ -197,16 +225,14 @@ int main(int argc, char **argv)
     struct hm_join join = {0};
     char *owners;
     struct hm_diag d = {0};
-    if (cmd.has_buffer && cmd.buffer < 0)
-        hm_cli_die(cli, "--buffer must not be negative");
-    if (cmd.has_tolerance && cmd.tolerance < 0)
-        hm_cli_die(cli, "--tolerance must not be negative");
+    check_options(cli);
     hm_cli_read_all(cli, &in);
     if (in.nmeshes == 0)
         hm_cli_die(cli, "no mesh among the operands");
+    check_inputs(cli, &in);
     hm_cli_check(cli, hm_owners_join(in.mesh, in.nmeshes, &owners, &d), &d);
     join_all(cli, &in, &join);
-    check(cli, &join.mesh, &in);
+    check_result(cli, &join.mesh, &in);
     hm_cli_check(cli, hm_join_flag_boundary(&join.mesh, &d), &d);
     if (cmd.renumber)
         renumber(cli, &join.mesh);

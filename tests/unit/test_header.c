@@ -131,9 +131,26 @@ static void test_metres(void)
     hm_header_free(&h);
 }
 
+static void test_line_breaks(void)
+{
+    struct hm_header h;
+    struct hm_diag d = {0};
+    hm_header_init(&h, HM_MESH, &d);
+    ok(hm_header_set(&h, "name", "a\n#end", &d) == HM_EARG && strstr(d.text, "line break in"),
+       "a line break in a value is refused");
+    ok(!hm_header_get(&h, "name"), "and not kept");
+    hm_header_set(&h, "name", "main", NULL);
+    ok(hm_header_set(&h, "name", "a\rb", NULL) == HM_EARG &&
+           !strcmp(hm_header_get(&h, "name"), "main"),
+       "nor put in the place of another");
+    ok(hm_header_add(&h, "a\nb", "1", NULL) == HM_EARG, "nor in the name of a key");
+    hm_header_free(&h);
+}
+
 int main(void)
 {
     test_keys();
+    test_line_breaks();
     test_fields();
     test_merge();
     test_metres();

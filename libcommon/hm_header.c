@@ -253,12 +253,29 @@ static enum hm_err merge_units(struct hm_header *h, const struct hm_header *from
     return err;
 }
 
-static bool has_history(const struct hm_header *h, const char *line)
+/* How often the line stands among the first n of the history. */
+static size_t count_history(const struct hm_header *h, size_t n, const char *line)
 {
-    for (size_t i = 0; i < h->nhistory; i++)
-        if (!strcmp(h->history[i], line))
-            return true;
-    return false;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++)
+        count += !strcmp(h->history[i], line);
+    return count;
+}
+
+/* A line that stands k times in one of the two histories and fewer in the other stands k times
+ * afterwards: what both have is their common past, what one has several times it did several times.
+ */
+static enum hm_err merge_history(struct hm_header *h, const struct hm_header *from,
+                                 struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    size_t had = h->nhistory;
+    for (size_t i = 0; i < from->nhistory && !err; i++) {
+        const char *line = from->history[i];
+        if (count_history(from, i + 1, line) > count_history(h, had, line))
+            err = hm_header_add_history(h, line, d);
+    }
+    return err;
 }
 
 /* Keys that hold for one object alone. */
@@ -272,10 +289,7 @@ enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, s
     const char *crs = hm_header_get(h, "crs"), *other = hm_header_get(from, "crs");
     if (crs && other && strcmp(crs, other))
         return hm_fail(d, HM_EFORMAT, "inputs differ in their crs: \"%s\" and \"%s\"", crs, other);
-    enum hm_err err = HM_OK;
-    for (size_t i = 0; i < from->nhistory && !err; i++)
-        if (!has_history(h, from->history[i]))
-            err = hm_header_add_history(h, from->history[i], d);
+    enum hm_err err = merge_history(h, from, d);
     size_t had = h->nkeys; /* a key that `from` has several times comes over whole */
     for (size_t i = 0; i < from->nkeys && !err; i++) {
         const char *name = from->keys[i].name;

@@ -72,7 +72,8 @@ enum hm_err hm_header_add_field(struct hm_header *h, const char *name, const cha
 /* Append one history line. */
 enum hm_err hm_header_add_history(struct hm_header *h, const char *line, struct hm_diag *d);
 
-/* Bring what `from` says into h, as a program with several inputs does: history lines that h lacks,
+/* Bring what `from` says into h, as a program with several inputs does: history lines that h lacks
+ * or has less often (what both have they have in common; equal stages of one history all stay),
  * keys that h lacks (but never what holds for one object alone: name, role, string; units go by the
  * names of the fields). HM_EFORMAT when both have a crs and they differ. */
 enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, struct hm_diag *d);

@@ -90,6 +90,49 @@ static void test_merge(void)
     hm_header_free(&other);
 }
 
+/* The history of a header, its lines joined by blanks. */
+static const char *history(const struct hm_header *h)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (size_t i = 0; i < h->nhistory; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", i ? " " : "",
+                 h->history[i]);
+    return text;
+}
+
+static struct hm_header with_history(const char *const *lines)
+{
+    struct hm_header h;
+    hm_header_init(&h, HM_MESH, NULL);
+    for (; *lines; lines++)
+        hm_header_add_history(&h, *lines, NULL);
+    return h;
+}
+
+static void test_histories(void)
+{
+    struct hm_header river = with_history((const char *[]){"bsgrid", "bsmesh", "stitch", NULL});
+    struct hm_header twice = with_history((const char *[]){"bsgrid", "slope", "slope", NULL});
+    struct hm_header hybrid =
+        with_history((const char *[]){"bsgrid", "bsmesh", "stitch", "trimesh", "stitch", NULL});
+    struct hm_header h = with_history((const char *[]){NULL});
+    hm_header_merge(&h, &hybrid, NULL);
+    ok(is(history(&h), "bsgrid bsmesh stitch trimesh stitch"), "equal stages of one input stay: %s",
+       history(&h));
+    hm_header_merge(&h, &hybrid, NULL);
+    ok(h.nhistory == 5, "the same input again adds nothing: %s", history(&h));
+    hm_header_merge(&h, &river, NULL);
+    ok(h.nhistory == 5, "nor does one that it came from: %s", history(&h));
+    hm_header_merge(&h, &twice, NULL);
+    ok(is(history(&h), "bsgrid bsmesh stitch trimesh stitch slope slope"),
+       "another past comes over whole, the common line once: %s", history(&h));
+    hm_header_free(&river);
+    hm_header_free(&twice);
+    hm_header_free(&hybrid);
+    hm_header_free(&h);
+}
+
 static void test_metres(void)
 {
     static const char *const degrees[] = {"EPSG:4326",
@@ -153,6 +196,7 @@ int main(void)
     test_line_breaks();
     test_fields();
     test_merge();
+    test_histories();
     test_metres();
     return done();
 }

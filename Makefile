@@ -49,7 +49,7 @@ help:
 #: make            build all programs in build/bin
 #: make demo       the whole chain on a generated survey, pictures and all, in ./demo
 #:                 (POINTS=survey.xyz LINES=lines.txt: the same with your own data)
-#: make check      all tests that take under two minutes
+#: make check      all tests that take under two minutes (TESTS=tests/x.t: that one)
 #: make check-long the longer ones;  make check-san: make check under ASan and UBSan
 #: make fuzz       fuzz targets (SECONDS=600 each; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
@@ -98,11 +98,11 @@ pictures: demo
 
 check: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
-	$(Q)B=$(CURDIR)/$(B) tests/run $(TESTS)
+	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/*.t) $(UNIT))
 
 check-long: deps-quiet
 	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
-	$(Q)B=$(CURDIR)/$(B) tests/run $(wildcard tests/long/*.t)
+	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/long/*.t))
 
 check-san:
 	$(Q)$(MAKE) --no-print-directory check SANITIZE=address,undefined

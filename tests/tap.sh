@@ -3,10 +3,13 @@
 #     #!/bin/sh
 #     . "${0%/*}/tap.sh"
 #
+# (tests/long/NAME.t: /../tap.sh)
+#
 # runs in an empty folder of its own (removed at its end), finds the programs on PATH, and ends with
 # `done_testing`.
 
 TESTS=$(cd "${0%/*}" && pwd)
+TESTS=${TESTS%/long}
 : "${B:=$(cd "$TESTS/.." && pwd)/build}"
 DATA=${HM_DATA:-$TESTS/../../shared/data} # real terrain; may be absent: need_data skips
 PATH=$B/bin:$B/test:$PATH

@@ -1,6 +1,8 @@
 #define _GNU_SOURCE
 #include "hm_cli_private.h"
 
+#include "hm_copy.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,85 +25,6 @@ struct hm_writer *hm_cli_writer(struct hm_cli *cli)
 
 /* --- --keep: inputs to the output, and to a spool from which the tool then reads them --- */
 
-static enum hm_err copy_points(struct hm_reader *r, const struct hm_header *h,
-                               struct hm_writer *to[2], struct hm_diag *d)
-{
-    enum { BATCH = 4096 };
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    if (!rows)
-        return hm_fail_memory(d);
-    enum hm_err err;
-    size_t n;
-    while (!(err = hm_reader_points(r, rows, BATCH, &n, d)))
-        for (int k = 0; k < 2 && !err; k++)
-            err = hm_writer_points(to[k], rows, n, d);
-    free(rows);
-    return err;
-}
-
-static enum hm_err copy_rows(struct hm_reader *r, const struct hm_header *h,
-                             struct hm_writer *to[2], struct hm_diag *d)
-{
-    double *row = hm_alloc((size_t)h->lattice.nx * (h->nfields - 2), sizeof *row);
-    if (!row)
-        return hm_fail_memory(d);
-    enum hm_err err;
-    while (!(err = hm_reader_row(r, row, d)))
-        for (int k = 0; k < 2 && !err; k++)
-            err = hm_writer_row(to[k], row, d);
-    free(row);
-    return err;
-}
-
-static enum hm_err copy_lines(struct hm_reader *r, struct hm_writer *to[2], struct hm_diag *d)
-{
-    struct hm_line line;
-    enum hm_err err;
-    while (!(err = hm_reader_line(r, &line, d)))
-        for (int k = 0; k < 2 && !err; k++)
-            err = hm_writer_line(to[k], &line, d);
-    return err;
-}
-
-static enum hm_err copy_mesh(struct hm_reader *r, struct hm_writer *to[2], struct hm_diag *d)
-{
-    struct hm_mesh m = {0};
-    enum hm_err err = hm_reader_mesh(r, &m, d);
-    for (int k = 0; k < 2 && !err; k++)
-        err = hm_writer_mesh(to[k], &m, d);
-    hm_mesh_free(&m);
-    return err;
-}
-
-static enum hm_err copy_object(struct hm_reader *r, const struct hm_header *h,
-                               struct hm_writer *to[2], struct hm_diag *d)
-{
-    enum hm_err err = HM_OK;
-    for (int k = 0; k < 2 && !err; k++)
-        err = hm_writer_begin(to[k], h, d);
-    if (err)
-        return err;
-    switch (h->kind) {
-    case HM_POINTS:
-        err = copy_points(r, h, to, d);
-        break;
-    case HM_GRID:
-        err = copy_rows(r, h, to, d);
-        break;
-    case HM_LINES:
-        err = copy_lines(r, to, d);
-        break;
-    default:
-        err = copy_mesh(r, to, d);
-        break;
-    }
-    if (err == HM_END)
-        err = HM_OK;
-    for (int k = 0; k < 2 && !err; k++)
-        err = hm_writer_end(to[k], d);
-    return err;
-}
-
 static enum hm_err copy_operand(const char *path, bool strict, struct hm_writer *to[2],
                                 struct hm_diag *d)
 {
@@ -112,7 +35,7 @@ static enum hm_err copy_operand(const char *path, bool strict, struct hm_writer 
     hm_reader_strict(r, strict);
     struct hm_header h;
     while (!(err = hm_reader_next(r, &h, d))) {
-        err = copy_object(r, &h, to, d);
+        err = hm_copy_object(r, &h, to, 2, d);
         hm_header_free(&h);
         if (err)
             break;

@@ -1,5 +1,6 @@
 #include "hm_describe.h"
 
+#include "hm_batch.h"
 #include "hm_line.h"
 #include "hm_mesh.h"
 #include "hm_num.h"
@@ -61,22 +62,20 @@ static enum hm_err say_ranges(struct hm_writer *w, const struct hm_header *h, si
 static enum hm_err describe_points(struct hm_reader *r, const struct hm_header *h,
                                    struct hm_writer *w, struct hm_diag *d)
 {
-    enum { BATCH = 4096 };
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
+    struct hm_batch b = {0};
     struct range *range = new_ranges(h->nfields);
     int64_t count = 0;
-    size_t n;
-    enum hm_err err = rows && range ? HM_OK : hm_fail_memory(d);
-    while (!err && !(err = hm_reader_points(r, rows, BATCH, &n, d))) {
-        count += (int64_t)n;
-        for (size_t k = 0; k < n * h->nfields; k++)
-            widen(&range[k % h->nfields], rows[k]);
+    enum hm_err err = range ? HM_OK : hm_fail_memory(d);
+    while (!err && !(err = hm_batch_read(&b, r, h, d))) {
+        count += (int64_t)b.n;
+        for (size_t k = 0; k < b.n * h->nfields; k++)
+            widen(&range[k % h->nfields], b.rows[k]);
     }
     if (err == HM_END)
         err = hm_writer_printf(w, d, "  points   %lld\n", (long long)count);
     if (!err)
         err = say_ranges(w, h, 0, range, d);
-    free(rows);
+    hm_batch_free(&b);
     free(range);
     return err;
 }

@@ -4,6 +4,7 @@
 #include "hm_num.h"
 #include "hm_thread.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <signal.h>
@@ -103,6 +104,12 @@ void hm_cli_progress(struct hm_cli *cli, const char *text, double part)
 
 /* --- help --- */
 
+/* Does a common option mean anything to the program? */
+static bool applies(const struct hm_program *p, const struct hm_option *common)
+{
+    return !p->without || !common->letter || !strchr(p->without, common->letter);
+}
+
 static void print_option(const struct hm_option *o)
 {
     char left[64];
@@ -114,10 +121,14 @@ static void print_option(const struct hm_option *o)
     printf("  %-28s%s%s\n", left, n > 27 ? "\n                              " : "", o->help);
 }
 
-static void print_options(const struct hm_option *options)
+/* Help and version are all that was asked for. */
+_Noreturn static void leave_told(const struct hm_program *p)
 {
-    for (const struct hm_option *o = options; o->name; o++)
-        print_option(o);
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "%s: standard output: cannot write: %s\n", p->name, strerror(errno));
+        exit(2);
+    }
+    exit(0);
 }
 
 _Noreturn static void print_help(const struct hm_program *p, const struct hm_option *common)
@@ -125,22 +136,23 @@ _Noreturn static void print_help(const struct hm_program *p, const struct hm_opt
     printf("usage: %s [options] %s\n%s\n", p->name, p->operands, p->purpose);
     if (p->options && p->options->name) {
         printf("\nOptions:\n");
-        print_options(p->options);
+        for (const struct hm_option *o = p->options; o->name; o++)
+            print_option(o);
     }
     printf("\nCommon options:\n");
-    print_options(common);
+    for (const struct hm_option *o = common; o->name; o++)
+        if (applies(p, o))
+            print_option(o);
     printf("\nFiles may be of any kind, in any order; - is standard input, the default.\n"
            "Exit status: 0 done, 1 the answer is no, 2 error.  See %s(1), hybridmesh(5).\n",
            p->name);
-    if (fflush(stdout) || ferror(stdout))
-        exit(2);
-    exit(0);
+    leave_told(p);
 }
 
 _Noreturn static void print_version(const struct hm_program *p)
 {
     printf("%s (hybridmesh) %s\n", p->name, HM_VERSION);
-    exit(fflush(stdout) ? 2 : 0);
+    leave_told(p);
 }
 
 /* --- parsing --- */
@@ -236,6 +248,19 @@ struct parser {
     size_t ngiven;
 };
 
+/* The program's option, or the common one, of that name or letter. */
+static const struct hm_option *find(const struct parser *s, char letter, const char *name,
+                                    size_t length)
+{
+    const struct hm_option *o = find_in(s->program->options, letter, name, length);
+    if (o)
+        return o;
+    o = find_in(s->common, letter, name, length);
+    if (o && !applies(s->program, o))
+        misuse(s->program, "--%s means nothing here", o->name);
+    return o;
+}
+
 static void take(struct parser *s, const struct hm_option *o, const char *text)
 {
     apply(s->program, o, text);
@@ -260,9 +285,7 @@ static const char *argument_of(struct parser *s, const struct hm_option *o, cons
 static void parse_long(struct parser *s, const char *word)
 {
     size_t length = strcspn(word, "=");
-    const struct hm_option *o = find_in(s->program->options, 0, word, length);
-    if (!o)
-        o = find_in(s->common, 0, word, length);
+    const struct hm_option *o = find(s, 0, word, length);
     if (!o)
         misuse(s->program, "unknown option --%.*s", (int)length, word);
     const char *attached = word[length] ? word + length + 1 : NULL;
@@ -277,9 +300,7 @@ static void parse_long(struct parser *s, const char *word)
 static void parse_letters(struct parser *s, const char *word)
 {
     while (*word) {
-        const struct hm_option *o = find_in(s->program->options, *word, NULL, 0);
-        if (!o)
-            o = find_in(s->common, *word, NULL, 0);
+        const struct hm_option *o = find(s, *word, NULL, 0);
         if (!o)
             misuse(s->program, "unknown option -%c", *word);
         word++;
@@ -291,33 +312,37 @@ static void parse_letters(struct parser *s, const char *word)
     }
 }
 
-/* `name version -d 5 --method mean`: what was given and changes the result, in the table's order.
- */
+static void print_given(FILE *f, const struct given *g)
+{
+    if (g->option->letter)
+        fprintf(f, " -%c", g->option->letter);
+    else
+        fprintf(f, " --%s", g->option->name);
+    if (!g->text)
+        return;
+    bool quote = !*g->text || strpbrk(g->text, " \t\n");
+    fputs(quote ? " \"" : " ", f);
+    for (const char *c = g->text; *c; c++)
+        fputc(*c == '\n' ? ' ' : *c, f);
+    fputs(quote ? "\"" : "", f);
+}
+
+/* `name version -d 5 --method mean -p 2`: what was given and changes the result, the program's own
+ * options and then the common ones, each in the order of its table. */
 static char *make_history(const struct parser *s)
 {
+    const struct hm_option *const tables[] = {s->program->options, s->common};
     char *text = NULL;
     size_t size = 0;
     FILE *f = open_memstream(&text, &size);
     if (!f)
         return NULL;
     fprintf(f, "%s %s", s->program->name, HM_VERSION);
-    for (const struct hm_option *o = s->program->options; o && o->name; o++)
-        for (size_t k = 0; k < s->ngiven; k++) {
-            const struct given *g = &s->given[k];
-            if (g->option != o || o->silent)
-                continue;
-            if (o->letter)
-                fprintf(f, " -%c", o->letter);
-            else
-                fprintf(f, " --%s", o->name);
-            if (g->text) {
-                bool quote = !*g->text || strpbrk(g->text, " \t\n");
-                fprintf(f, quote ? " \"" : " ");
-                for (const char *c = g->text; *c; c++)
-                    fputc(*c == '\n' ? ' ' : *c, f);
-                fputs(quote ? "\"" : "", f);
-            }
-        }
+    for (int t = 0; t < 2; t++)
+        for (const struct hm_option *o = tables[t]; o && o->name; o++)
+            for (size_t k = 0; k < s->ngiven && !o->silent; k++)
+                if (s->given[k].option == o)
+                    print_given(f, &s->given[k]);
     return fclose(f) ? NULL : text;
 }
 
@@ -340,6 +365,22 @@ static void parse(struct parser *s, struct hm_cli *cli)
         cli->operands[cli->noperands++] = standard_input;
 }
 
+/* Rounding is part of the history, so what is only copied must not be rounded. */
+static void check_precision(const struct parser *s, const struct hm_cli *cli)
+{
+    bool given = false;
+    for (size_t k = 0; k < s->ngiven; k++)
+        given |= s->given[k].option->value == &cli->decimals;
+    if (!given)
+        return;
+    if (cli->decimals < 1 || cli->decimals > 17)
+        misuse(s->program, "--precision: 1 to 17 decimals");
+    if (cli->binary)
+        misuse(s->program, "--precision is for text, --binary is exact");
+    if (cli->keep)
+        misuse(s->program, "--precision would round what --keep copies");
+}
+
 struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **argv)
 {
     signal(SIGPIPE, SIG_DFL); /* a closed pipe ends a tool in silence */
@@ -358,7 +399,7 @@ struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **a
          .silent = true},
         {'b', "binary", NULL, HM_OPT_FLAG, &cli->binary, "write a binary stream", .silent = true},
         {'p', "precision", "DIGITS", HM_OPT_NATURAL, &cli->decimals,
-         "text: at most that many decimals (default: exact)", .silent = true},
+         "text: at most that many decimals (default: exact)", .silent = false},
         {'j', "threads", "N", HM_OPT_NATURAL, &cli->threads, "threads (default: all cores)",
          .silent = true},
         {'K', "keep", NULL, HM_OPT_FLAG, &cli->keep, "copy the inputs to the output first",
@@ -376,8 +417,7 @@ struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **a
         print_help(program, common);
     if (version)
         print_version(program);
-    if (cli->decimals > 17)
-        misuse(program, "--precision: at most 17 decimals");
+    check_precision(&s, cli);
     if (!cli->threads)
         cli->threads = hm_thread_count();
     cli->history = make_history(&s);

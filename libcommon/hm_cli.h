@@ -19,7 +19,7 @@
  *
  * The common options (-o -b -p -j -v -h --quiet --version --strict -K) are added to every table,
  * `--help` is made from it, and so is the history line: the options given that change the result,
- * in the order of the table.
+ * in the order of the table, the common ones last.
  *
  * `tool: file:line: text` on standard error and exit 2 for every failure.
  */
@@ -56,8 +56,9 @@ struct hm_program {
     const char *purpose;  /* one line */
     const char *operands; /* for the synopsis: "[file …]" */
     const struct hm_option *options;
-    int needs;       /* hm_kind bits it takes from its operands; others are dropped aloud */
-    bool degrees_ok; /* longitude and latitude are not refused */
+    int needs;           /* hm_kind bits it takes from its operands; others are dropped aloud */
+    bool degrees_ok;     /* longitude and latitude are not refused */
+    const char *without; /* letters of the common options that mean nothing to it: "bpK", NULL */
 };
 
 struct hm_cli;
@@ -68,10 +69,10 @@ struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **a
 /* Close the output, say what was mended; the exit status: 0, or 1 with --strict and mends. */
 int hm_cli_finish(struct hm_cli *cli);
 
-int hm_cli_threads(const struct hm_cli *cli);                       /* -j, default all cores */
-bool hm_cli_verbose(const struct hm_cli *cli);                      /* -v */
-struct hm_format hm_cli_format(const struct hm_cli *cli);           /* -b, -p */
-const char *hm_cli_output(const struct hm_cli *cli);                /* -o, or "-" */
+int hm_cli_threads(const struct hm_cli *cli);             /* -j, default all cores */
+bool hm_cli_verbose(const struct hm_cli *cli);            /* -v */
+struct hm_format hm_cli_format(const struct hm_cli *cli); /* -b, -p */
+const char *hm_cli_output(const struct hm_cli *cli);      /* -o, or "-" */
 /* Another format than asked for by the common options; before the first hm_cli_writer. */
 void hm_cli_set_format(struct hm_cli *cli, struct hm_format format);
 const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0.1 -d 5" */

@@ -23,26 +23,33 @@ static struct {
 
 static const struct hm_option options[] = {
     {'s', "limit", "LIMIT[,...]", HM_OPT_TEXT, &cmd.limits,
-     "limit slopes in degrees, or in percent as 10% (default 5)", NULL, false, NULL},
+     .help = "limit slopes in degrees, or in percent as 10% (default 5)"},
     {'m', "mode", "NAME", HM_OPT_CHOICE, &cmd.mode,
-     "interpolated lines or the border of the steep nodes (default interp)", "interp|node", false,
-     NULL},
+     .help = "interpolated lines or the border of the steep nodes (default interp)",
+     .choices = "interp|node"},
     {'x', "saddle", "NAME", HM_OPT_CHOICE, &cmd.saddle,
-     "vertices: the crossings of a cell, or their mean (default split)", "split|mean", false, NULL},
+     .help = "vertices: the crossings of a cell, or their mean (default split)",
+     .choices = "split|mean"},
     {'l', "min-length", "M", HM_OPT_NUMBER, &cmd.least,
-     "drop shorter lines (default 10 grid spacings)", NULL, false, NULL},
-    {'w', "smooth", "M", HM_OPT_POSITIVE, &cmd.smooth, "smooth; no vertex moves further than this",
-     NULL, false, &cmd.smoothed},
+     .help = "drop shorter lines, m (default 10 grid spacings)"},
+    {'w', "smooth", "M", HM_OPT_POSITIVE, &cmd.smooth,
+     .help = "smooth; no vertex moves further than this, m", .given = &cmd.smoothed},
     {'e', "simplify", "M", HM_OPT_POSITIVE, &cmd.simplify,
-     "leave out vertices; the line moves no further than this", NULL, false, &cmd.simplified},
-    {'r', "resample", "M", HM_OPT_POSITIVE, &cmd.resample, "put vertices at this distance", NULL,
-     false, &cmd.resampled},
+     .help = "leave out vertices; the line moves no further than this, m",
+     .given = &cmd.simplified},
+    {'r', "resample", "M", HM_OPT_POSITIVE, &cmd.resample,
+     .help = "put vertices at this distance, m", .given = &cmd.resampled},
     {0, "slope", "FILE", HM_OPT_TEXT, &cmd.slope_file,
-     "take the slope from this grid, only the heights from the operands", NULL, true, NULL},
+     .help = "take the slope from this grid, only the heights from the operands", .silent = true},
     {0}};
 
 static const struct hm_program program = {
-    "breaklines", "lines where the slope passes a limit", "[file ...]", options, HM_GRID, false};
+    .name = "breaklines",
+    .purpose = "grid with slope → lines where the slope passes a limit",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_GRID,
+};
 
 struct tool;
 

@@ -1,5 +1,6 @@
 /* bsgrid: points to an analysis grid on a B-spline surface. */
 #include "hm_anchor.h"
+#include "hm_batch.h"
 #include "hm_bspline.h"
 #include "hm_cellmean.h"
 #include "hm_cli.h"
@@ -24,30 +25,36 @@ static struct {
 } cmd = {.spacing = 1, .degree = 2, .iterations = 1};
 
 static const struct hm_option options[] = {
-    {'d', "spacing", "M", HM_OPT_POSITIVE, &cmd.spacing, "distance of the nodes (default 1)", NULL,
-     false, NULL},
+    {'d', "spacing", "M", HM_OPT_POSITIVE, &cmd.spacing,
+     .help = "distance of the nodes, m (default 1)"},
     {'R', "region", "W/E/S/N", HM_OPT_TEXT, &cmd.region,
-     "window to grid (default: all that the points cover)", NULL, false, NULL},
+     .help = "window to grid (default: all that the points cover)"},
     {'m', "method", "NAME", HM_OPT_CHOICE, &cmd.method,
-     "start grid: linear in triangles, or means of cells (default tin)", "tin|mean", false, NULL},
-    {'k', "degree", "K", HM_OPT_NATURAL, &cmd.degree, "of the surface, 1, 2 or 3 (default 2)", NULL,
-     false, NULL},
+     .help = "start grid: linear in triangles, or means of cells (default tin)",
+     .choices = "tin|mean"},
+    {'k', "degree", "K", HM_OPT_NATURAL, &cmd.degree,
+     .help = "degree of the surface: 1, 2 or 3 (default 2)"},
     {'n', "iterations", "N", HM_OPT_NATURAL, &cmd.iterations,
-     "of dragging: fewer smooth more (default 1)", NULL, false, NULL},
+     .help = "iterations of dragging (default 1; fewer smooth more)"},
     {'f', "fit", "NAME", HM_OPT_CHOICE, &cmd.fit,
-     "drag towards the start grid or the points themselves (default grid)", "grid|points", false,
-     NULL},
+     .help = "drag towards the start grid or the points themselves (default grid)",
+     .choices = "grid|points"},
     {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
-     "wider gaps between points stay empty (default 10 spacings)", NULL, false, &cmd.gap_given},
-    {'c', "classes", "N[,...]", HM_OPT_TEXT, &cmd.classes, "take only points of these classes",
-     NULL, false, NULL},
-    {0, "derivatives", NULL, HM_OPT_FLAG, &cmd.derivatives, "add the bands dzdx and dzdy", NULL,
-     false, NULL},
+     .help = "wider gaps between points stay empty, m (default 10 spacings)",
+     .given = &cmd.gap_given},
+    {'c', "classes", "N[,...]", HM_OPT_TEXT, &cmd.classes,
+     .help = "take only points of these classes"},
+    {0, "derivatives", NULL, HM_OPT_FLAG, &cmd.derivatives,
+     .help = "add the bands dzdx and dzdy, for slope -m bspline"},
     {0}};
 
 static const struct hm_program program = {
-    "bsgrid", "points to an analysis grid on a B-spline surface", "[file ...]", options, HM_POINTS,
-    false};
+    .name = "bsgrid",
+    .purpose = "points → analysis grid on a B-spline surface",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_POINTS,
+};
 
 enum { CLASSES = 256 };
 
@@ -151,23 +158,21 @@ static bool is_wanted(const struct survey *s, double class)
 
 static void read_points(struct hm_cli *cli, struct survey *s, const struct hm_header *h)
 {
-    enum { BATCH = 4096 };
     struct hm_reader *r = hm_cli_reader(cli);
     int class = hm_header_field(h, "class");
     if (cmd.classes && class < 0)
         hm_cli_die(cli, "%s: -c needs a field class", hm_reader_name(r));
     struct hm_diag d = {0};
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    enum hm_err err = rows ? HM_OK : hm_fail_memory(&d);
-    size_t n;
-    while (!err && !(err = hm_reader_points(r, rows, BATCH, &n, &d)))
-        for (size_t k = 0; k < n && !err; k++) {
-            const double *p = rows + k * h->nfields;
+    struct hm_batch b = {0};
+    enum hm_err err = HM_OK;
+    while (!err && !(err = hm_batch_read(&b, r, h, &d)))
+        for (size_t k = 0; k < b.n && !err; k++) {
+            const double *p = b.rows + k * h->nfields;
             if (!cmd.classes || is_wanted(s, p[class]))
                 err = add_point(s, p, &d);
         }
-    hm_cli_check(cli, err == HM_END ? HM_OK : err, &d);
-    free(rows);
+    hm_cli_check(cli, err, &d);
+    hm_batch_free(&b);
 }
 
 /* --- the start grid --- */

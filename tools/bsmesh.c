@@ -24,25 +24,21 @@ static struct {
 
 static const struct hm_option options[] = {
     {'c', "control", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.control,
-     "distance of control points, m; across may be fractions as 0,.1,.3,.7,.9,1", NULL, false,
-     NULL},
+     .help = "distance of control points, m; across also as fractions: 0,.1,.5,.9,1"},
     {'n', "snap", "M", HM_OPT_NUMBER, &cmd.snap,
-     "how far a control point may move to a breakline (default ALONG; 0: none)", NULL, false,
-     &cmd.has_snap},
-    {'e', "elements", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.elements, "length of the elements, m", NULL,
-     false, NULL},
-    {'Q', "quads", NULL, HM_OPT_FLAG, &cmd.quads, "quadrilaterals instead of triangles", NULL,
-     false, NULL},
-    {'k', "degree", "K", HM_OPT_CHOICE, &cmd.degree, "of the surface: 1, 2 or 3 (default 2)",
-     "1|2|3", false, NULL},
+     .help = "farthest move of a control point to a breakline, m (default ALONG)",
+     .given = &cmd.has_snap},
+    {'e', "elements", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.elements,
+     .help = "length of the elements, m"},
+    {'Q', "quads", NULL, HM_OPT_FLAG, &cmd.quads, .help = "quadrilaterals instead of triangles"},
+    {'k', "degree", "K", HM_OPT_CHOICE, &cmd.degree, .help = "degree of the surface (default 2)",
+     .choices = "1|2|3"},
     {'i', "iterations", "N", HM_OPT_NATURAL, &cmd.iterations,
-     "by which heights are dragged to the terrain (default 5; fewer smooth more)", NULL, false,
-     NULL},
+     .help = "iterations of dragging to the terrain (default 5; fewer smooth more)"},
     {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
-     "triangles of measurements with a longer edge know no height (default 5 ALONG)", NULL, false,
-     NULL},
-    {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface, "only this one (default: all)", NULL, false,
-     NULL},
+     .help = "wider gaps between points give no height, m (default 5 ALONG)"},
+    {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface,
+     .help = "make only this surface (default: all)"},
     {0}};
 
 static const struct hm_program program = {
@@ -51,6 +47,7 @@ static const struct hm_program program = {
     .operands = "[file ...]",
     .options = options,
     .needs = HM_LINES | HM_POINTS | HM_GRID,
+    .without = "p", /* a mesh is written exactly */
 };
 
 /* What all surfaces share. */

@@ -2,7 +2,9 @@
  *
  * Streams take all kinds, object by object; the other formats take the objects of their kind.
  */
+#include "hm_batch.h"
 #include "hm_cli.h"
+#include "hm_copy.h"
 #include "hm_describe.h"
 #include "hm_export.h"
 
@@ -27,78 +29,32 @@ static struct {
 } cmd;
 
 static const struct hm_option options[] = {
-    {'t', "to", NULL, HM_OPT_CHOICE, &cmd.format, "what to write (default text)",
+    {'t', "to", NULL, HM_OPT_CHOICE, &cmd.format, .help = "what to write (default text)",
      .choices = "text|binary|single|2dm|asc|xyz|gmt", .silent = true, .given = &cmd.format_given},
-    {'i', "info", NULL, HM_OPT_FLAG, &cmd.info, "say what the files hold instead", .silent = true},
-    {0, "band", "NAME", HM_OPT_TEXT, &cmd.band, "asc, xyz: this band of a grid (default the first)",
+    {'i', "info", NULL, HM_OPT_FLAG, &cmd.info, .help = "say what the files hold instead",
      .silent = true},
+    {0, "band", "NAME", HM_OPT_TEXT, &cmd.band,
+     .help = "asc, xyz: this band of a grid (default the first)", .silent = true},
     {0}};
 
 static const struct hm_program program = {.name = "hmconv",
-                                          .purpose = "convert between file formats of one kind",
+                                          .purpose = "any file → another format of its kind",
                                           .operands = "[file ...]",
                                           .options = options,
                                           .needs = HM_ANY,
-                                          .degrees_ok = true};
+                                          .degrees_ok = true,
+                                          .without = "K"};
 
-/* --- to streams: what came, in another encoding; nothing is added to the history --- */
+/* --- to streams --- */
 
-static enum hm_err copy_points(struct hm_reader *r, const struct hm_header *h, struct hm_writer *w,
-                               struct hm_diag *d)
+/* What came, in another encoding. That adds nothing to the history, but rounding does. */
+static enum hm_err copy_object(struct hm_cli *cli, struct hm_header *h, struct hm_diag *d)
 {
-    enum { BATCH = 4096 };
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    size_t n;
-    enum hm_err err = rows ? HM_OK : hm_fail_memory(d);
-    while (!err && !(err = hm_reader_points(r, rows, BATCH, &n, d)))
-        err = hm_writer_points(w, rows, n, d);
-    free(rows);
-    return err;
-}
-
-static enum hm_err copy_grid(struct hm_reader *r, const struct hm_header *h, struct hm_writer *w,
-                             struct hm_diag *d)
-{
-    double *row = hm_alloc((size_t)h->lattice.nx * (h->nfields - 2), sizeof *row);
-    enum hm_err err = row ? HM_OK : hm_fail_memory(d);
-    while (!err && !(err = hm_reader_row(r, row, d)))
-        err = hm_writer_row(w, row, d);
-    free(row);
-    return err;
-}
-
-static enum hm_err copy_lines(struct hm_reader *r, struct hm_writer *w, struct hm_diag *d)
-{
-    struct hm_line line;
-    enum hm_err err;
-    while (!(err = hm_reader_line(r, &line, d)))
-        if ((err = hm_writer_line(w, &line, d)))
-            break;
-    return err;
-}
-
-static enum hm_err copy_mesh(struct hm_reader *r, struct hm_writer *w, struct hm_diag *d)
-{
-    struct hm_mesh m = {0};
-    enum hm_err err = hm_reader_mesh(r, &m, d);
-    if (!err)
-        err = hm_writer_mesh(w, &m, d);
-    hm_mesh_free(&m);
-    return err;
-}
-
-static enum hm_err copy_object(struct hm_reader *r, const struct hm_header *h, struct hm_writer *w,
-                               struct hm_diag *d)
-{
-    enum hm_err err = hm_writer_begin(w, h, d);
-    if (!err)
-        err = h->kind == HM_POINTS  ? copy_points(r, h, w, d)
-              : h->kind == HM_GRID  ? copy_grid(r, h, w, d)
-              : h->kind == HM_LINES ? copy_lines(r, w, d)
-                                    : copy_mesh(r, w, d);
-    if (err == HM_END)
-        err = HM_OK;
-    return err ? err : hm_writer_end(w, d);
+    struct hm_writer *w = hm_cli_writer(cli);
+    enum hm_err err = HM_OK;
+    if (hm_cli_format(cli).decimals)
+        err = hm_header_add_history(h, hm_cli_history(cli), d);
+    return err ? err : hm_copy_object(hm_cli_reader(cli), h, &w, 1, d);
 }
 
 /* --- to other formats --- */
@@ -150,14 +106,12 @@ static void write_held(struct hm_cli *cli)
 static enum hm_err export_points(struct hm_cli *cli, struct hm_reader *r, const struct hm_header *h,
                                  int64_t *left_out, struct hm_diag *d)
 {
-    enum { BATCH = 4096 };
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    size_t n;
-    enum hm_err err = rows ? HM_OK : hm_fail_memory(d);
-    while (!err && !(err = hm_reader_points(r, rows, BATCH, &n, d)))
-        err = hm_export_xyz(rows, n, h->nfields, hm_cli_format(cli).decimals, left_out,
+    struct hm_batch b = {0};
+    enum hm_err err = HM_OK;
+    while (!err && !(err = hm_batch_read(&b, r, h, d)))
+        err = hm_export_xyz(b.rows, b.n, h->nfields, hm_cli_format(cli).decimals, left_out,
                             hm_cli_writer(cli), d);
-    free(rows);
+    hm_batch_free(&b);
     return err;
 }
 
@@ -191,7 +145,7 @@ static enum hm_err export_lines(struct hm_cli *cli, struct hm_reader *r, struct 
 
 /* --- one object after the other --- */
 
-static enum hm_err convert(struct hm_cli *cli, const struct hm_header *h, int64_t *left_out,
+static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *left_out,
                            struct hm_diag *d)
 {
     struct hm_reader *r = hm_cli_reader(cli);
@@ -207,7 +161,7 @@ static enum hm_err convert(struct hm_cli *cli, const struct hm_header *h, int64_
     case LINES_GMT:
         return export_lines(cli, r, d);
     default:
-        return copy_object(r, h, hm_cli_writer(cli), d);
+        return copy_object(cli, h, d);
     }
 }
 
@@ -218,6 +172,8 @@ static void choose_encoding(struct hm_cli *cli)
     bool binary = cmd.format == BINARY || cmd.format == SINGLE;
     if (format.binary && cmd.format_given && !binary)
         hm_cli_die(cli, "--binary and --to %s exclude each other", name);
+    if (format.decimals && binary)
+        hm_cli_die(cli, "--precision is for text, --to %s is not", name);
     if (format.decimals && cmd.format == MESH_2DM)
         hm_cli_die(cli, "--precision would move the nodes of a mesh");
     format.binary |= binary;

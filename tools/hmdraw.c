@@ -38,11 +38,12 @@ static const struct hm_option options[] = {
 
 static const struct hm_program program = {
     .name = "hmdraw",
-    .purpose = "draw points, grids, lines and meshes as a map",
+    .purpose = "points, grids, lines and meshes → a map",
     .operands = "[file ...]",
     .options = options,
     .needs = HM_ANY,
     .degrees_ok = true,
+    .without = "bpK",
 };
 
 struct layer {

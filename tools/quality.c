@@ -4,6 +4,7 @@
  * measurements stream through when the mesh comes before them; memory does not grow with their
  * number then.
  */
+#include "hm_batch.h"
 #include "hm_cli.h"
 #include "hm_locate.h"
 #include "hm_num.h"
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SAMPLES = 16, BATCH = 65536, CHUNK = 1024 };
+enum { MOST_SAMPLES = 16, CHUNK = 1024 };
 
 static struct {
     const char *samples, *thresholds, *criteria, *residuals;
@@ -24,24 +25,25 @@ static struct {
 
 static const struct hm_option options[] = {
     {'s', "sample", "LIST", HM_OPT_TEXT, &cmd.samples,
-     "samples in percent (default 1,5,10,30; all points come last)", .silent = true},
-    {'S', "seed", "N", HM_OPT_NATURAL, &cmd.seed, "choose other samples (default 1)",
+     .help = "samples in percent, besides all points (default 1,5,10,30)", .silent = true},
+    {'S', "seed", "N", HM_OPT_NATURAL, &cmd.seed, .help = "seed of the samples (default 1)",
      .silent = true},
     {'t', "thresholds", "G,Y", HM_OPT_TEXT, &cmd.thresholds,
-     "largest green and yellow residual, m (default 0.10,0.30)", .silent = false},
+     .help = "largest green and yellow residual, m (default 0.10,0.30)"},
     {'c', "check", "CRITERIA", HM_OPT_TEXT, &cmd.criteria,
-     "exit 1 unless all are met: 'rmse<=0.15,red<=5%,minangle>=20,valid'", .silent = true},
-    {'J', "json", NULL, HM_OPT_FLAG, &cmd.json, "report for programs", .silent = true},
+     .help = "exit 1 unless all are met: 'rmse<=0.15,red<=5%,minangle>=20,valid'", .silent = true},
+    {'J', "json", NULL, HM_OPT_FLAG, &cmd.json, .help = "write the report as JSON", .silent = true},
     {'r', "residuals", "FILE", HM_OPT_TEXT, &cmd.residuals,
-     "write points x y z residual class there", .silent = true},
+     .help = "write the points with residual and class there", .silent = true},
     {0}};
 
 static const struct hm_program program = {
     .name = "quality",
-    .purpose = "how well a mesh fits measurements, and how good its elements are",
+    .purpose = "mesh + measurements → how well they fit, how good the elements are",
     .operands = "[file ...]",
     .options = options,
-    .needs = HM_POINTS | HM_MESH};
+    .needs = HM_POINTS | HM_MESH,
+    .without = "K"};
 
 /* All that the run holds. */
 struct run {
@@ -120,25 +122,25 @@ static void begin_residuals(struct run *run)
     hm_cli_check(run->cli, err, &d);
 }
 
-/* A batch of measurements: where each lies and how high the mesh is there. */
-struct batch {
+/* Some measurements: where each lies and how high the mesh is there. */
+struct comparison {
     const struct run *run;
     const double *rows;
     size_t n, stride;
-    bool on_mesh[BATCH];
-    double height[BATCH];
+    bool on_mesh[HM_BATCH];
+    double height[HM_BATCH];
 };
 
 static void locate_chunk(void *arg, size_t chunk)
 {
-    struct batch *b = arg;
-    const struct hm_mesh *mesh = &b->run->mesh;
-    size_t end = (chunk + 1) * CHUNK < b->n ? (chunk + 1) * CHUNK : b->n;
+    struct comparison *c = arg;
+    const struct hm_mesh *mesh = &c->run->mesh;
+    size_t end = (chunk + 1) * CHUNK < c->n ? (chunk + 1) * CHUNK : c->n;
     for (size_t i = chunk * CHUNK; i < end; i++) {
-        const double *p = b->rows + i * b->stride;
-        int64_t e = hm_locate_element(b->run->locate, p[0], p[1]);
-        b->on_mesh[i] = e >= 0;
-        b->height[i] = e < 0 ? NAN : hm_elem_height(mesh, &mesh->elem[e], p[0], p[1]);
+        const double *p = c->rows + i * c->stride;
+        int64_t e = hm_locate_element(c->run->locate, p[0], p[1]);
+        c->on_mesh[i] = e >= 0;
+        c->height[i] = e < 0 ? NAN : hm_elem_height(mesh, &mesh->elem[e], p[0], p[1]);
     }
 }
 
@@ -155,14 +157,14 @@ static void count_point(struct hm_quality *q, const double *p, bool on_mesh, dou
         hm_quality_add(q, (struct hm_residual){p[0], p[1], residual}, ordinal);
 }
 
-static void compare(struct run *run, struct batch *b)
+static void compare(struct run *run, struct comparison *c)
 {
     struct hm_diag d = {0};
-    hm_thread_for(hm_cli_threads(run->cli), (b->n + CHUNK - 1) / CHUNK, locate_chunk, b);
-    for (size_t i = 0; i < b->n; i++) {
-        const double *p = b->rows + i * b->stride;
-        double residual = b->height[i] - p[2];
-        count_point(&run->quality, p, b->on_mesh[i], residual);
+    hm_thread_for(hm_cli_threads(run->cli), (c->n + CHUNK - 1) / CHUNK, locate_chunk, c);
+    for (size_t i = 0; i < c->n; i++) {
+        const double *p = c->rows + i * c->stride;
+        double residual = c->height[i] - p[2];
+        count_point(&run->quality, p, c->on_mesh[i], residual);
         if (cmd.residuals) {
             int class = hm_residual_classify(residual, run->quality.thresholds);
             double row[5] = {p[0], p[1], p[2], residual, class};
@@ -171,29 +173,29 @@ static void compare(struct run *run, struct batch *b)
     }
 }
 
-static struct batch *new_batch(struct run *run, size_t stride)
+static struct comparison *new_comparison(struct run *run, size_t stride)
 {
-    struct batch *b = hm_alloc(1, sizeof *b);
-    if (!b)
+    struct comparison *c = hm_alloc(1, sizeof *c);
+    if (!c)
         hm_cli_die(run->cli, "out of memory");
-    b->run = run;
-    b->stride = stride;
+    c->run = run;
+    c->stride = stride;
     if (cmd.residuals)
         begin_residuals(run);
-    return b;
+    return c;
 }
 
 static void compare_held(struct run *run)
 {
     for (size_t k = 0; k < run->nheld; k++) {
         struct hm_points *p = &run->held[k];
-        struct batch *b = new_batch(run, p->stride);
-        for (size_t i = 0; i < p->n; i += BATCH) {
-            b->rows = p->v + i * p->stride;
-            b->n = p->n - i < BATCH ? p->n - i : BATCH;
-            compare(run, b);
+        struct comparison *c = new_comparison(run, p->stride);
+        for (size_t i = 0; i < p->n; i += HM_BATCH) {
+            c->rows = p->v + i * p->stride;
+            c->n = p->n - i < HM_BATCH ? p->n - i : HM_BATCH;
+            compare(run, c);
         }
-        free(b);
+        free(c);
         hm_points_free(p);
     }
     run->nheld = 0;
@@ -204,17 +206,17 @@ static void compare_held(struct run *run)
 static void stream_points(struct run *run, struct hm_header *h)
 {
     struct hm_diag d = {0};
-    struct batch *b = new_batch(run, h->nfields);
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    if (!rows)
-        hm_cli_die(run->cli, "out of memory");
-    b->rows = rows;
+    struct comparison *c = new_comparison(run, h->nfields);
+    struct hm_batch b = {0};
     enum hm_err err;
-    while (!(err = hm_reader_points(hm_cli_reader(run->cli), rows, BATCH, &b->n, &d)))
-        compare(run, b);
+    while (!(err = hm_batch_read(&b, hm_cli_reader(run->cli), h, &d))) {
+        c->rows = b.rows;
+        c->n = b.n;
+        compare(run, c);
+    }
     hm_cli_check(run->cli, err, &d);
-    free(rows);
-    free(b);
+    hm_batch_free(&b);
+    free(c);
     hm_header_free(h);
 }
 

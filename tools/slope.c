@@ -17,16 +17,21 @@ static struct {
 
 static const struct hm_option options[] = {
     {'m', "method", "NAME", HM_OPT_CHOICE, &cmd.method,
-     "how the gradient is taken from the neighbours (default distance)",
-     "distance|horn|zt|equal|simple|steepest|bspline", false, NULL},
-    {'u', "units", "NAME", HM_OPT_CHOICE, &cmd.unit, "of the slope (default degree)",
-     "degree|percent|radian", false, NULL},
+     .help = "how the gradient is taken from the neighbours (default distance)",
+     .choices = "distance|horn|zt|equal|simple|steepest|bspline"},
+    {'u', "units", "NAME", HM_OPT_CHOICE, &cmd.unit, .help = "unit of the slope (default degree)",
+     .choices = "degree|percent|radian"},
     {'a', "aspect", NULL, HM_OPT_FLAG, &cmd.aspect,
-     "add where the ground falls to, in degrees clockwise from north", NULL, false, NULL},
+     .help = "add where the ground falls to, in degrees clockwise from north"},
     {0}};
 
 static const struct hm_program program = {
-    "slope", "adds the slope of the ground to a grid", "[file ...]", options, HM_GRID, false};
+    .name = "slope",
+    .purpose = "grid → the same grid with the slope of the ground",
+    .operands = "[file ...]",
+    .options = options,
+    .needs = HM_GRID,
+};
 
 /* A grid on its way through. Some rows are held at a time, with one more on either side. */
 struct stream {

@@ -26,17 +26,17 @@ static struct {
 
 static const struct hm_option options[] = {
     {'w', "buffer", "M", HM_OPT_NUMBER, &cmd.buffer,
-     "cut elements of the lower mesh nearer than this to the higher (default: 0.4 edges)", NULL,
-     false, &cmd.has_buffer},
+     .help = "cut elements nearer than this to a mesh before, m (default 0.4 edges)",
+     .given = &cmd.has_buffer},
     {'T', "tolerance", "M", HM_OPT_NUMBER, &cmd.tolerance,
-     "join nodes that are this near (default 0; 0.01 for meshes without role)", NULL, false,
-     &cmd.has_tolerance},
-    {'c', "components", NULL, HM_OPT_FLAG, &cmd.components, "the result may be in several pieces",
-     NULL, false, NULL},
+     .help = "join nodes that are this near, m (default 0; 0.01 without a role)",
+     .given = &cmd.has_tolerance},
+    {'c', "components", NULL, HM_OPT_FLAG, &cmd.components,
+     .help = "the result may be in several pieces"},
     {'r', "renumber", NULL, HM_OPT_FLAG, &cmd.renumber,
-     "renumber for a small bandwidth (reverse Cuthill-McKee)", NULL, false, NULL},
-    {'N', "name", "NAME", HM_OPT_TEXT, &cmd.name, "of the result (default: that of the first mesh)",
-     NULL, false, NULL},
+     .help = "renumber for a small bandwidth (reverse Cuthill-McKee)"},
+    {'N', "name", "NAME", HM_OPT_TEXT, &cmd.name,
+     .help = "name of the result (default: that of the first mesh)"},
     {0}};
 
 static const struct hm_program program = {
@@ -45,6 +45,7 @@ static const struct hm_program program = {
     .operands = "[file ...]",
     .options = options,
     .needs = HM_MESH | HM_POINTS | HM_GRID,
+    .without = "p", /* a mesh is written exactly */
 };
 
 static const char *role_of(const struct hm_mesh *m)

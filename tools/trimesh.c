@@ -33,31 +33,34 @@ static struct {
 
 static const struct hm_option options[] = {
     {'m', "method", "METHOD", HM_OPT_CHOICE, &cmd.method,
-     "delaunay: all points; paper: edges between -l and -L (default)", .choices = "delaunay|paper"},
-    {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, "minimum edge length, m",
+     .help = "nodes: all points, or edges between -l and -L (default paper)",
+     .choices = "delaunay|paper"},
+    {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, .help = "minimum edge length, m",
      .given = &cmd.min_given},
     {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
-     "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
-    {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth, "passes of Laplace smoothing (default 5)",
-     .given = NULL},
+     .help = "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
+    {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth,
+     .help = "passes of Laplace smoothing (default 5)"},
     {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
-     "heights of new nodes: terrain (default) or mean of their neighbours",
+     .help = "heights of new nodes: terrain, or neighbours' mean (default terrain)",
      .choices = "terrain|mean"},
     {'C', "clearance", "M", HM_OPT_POSITIVE, &cmd.clearance,
-     "cut off what is nearer to a regular mesh, m (default half the minimum edge)",
+     .help = "cut off what is nearer to a regular mesh, m (default half of -l)",
      .given = &cmd.clearance_given},
     {0, "line-z", "FROM", HM_OPT_CHOICE, &cmd.line_z,
-     "heights of breaklines: given (default) or terrain", .choices = "given|terrain"},
-    {0, "steps", "DIR", HM_OPT_TEXT, &cmd.steps, "write the mesh after every round into DIR",
-     .silent = true},
+     .help = "heights of breaklines: their own, or the terrain's (default given)",
+     .choices = "given|terrain"},
+    {0, "steps", "DIR", HM_OPT_TEXT, &cmd.steps,
+     .help = "write the mesh after every round into DIR", .silent = true},
     {0}};
 
 static const struct hm_program program = {
     .name = "trimesh",
-    .purpose = "points, lines and regular meshes -> the irregular mesh around them",
+    .purpose = "points, lines and regular meshes → the irregular mesh around them",
     .operands = "[file ...]",
     .options = options,
-    .needs = HM_ANY};
+    .needs = HM_ANY,
+    .without = "p"}; /* a mesh is written exactly */
 
 static void check_command(struct hm_cli *cli)
 {

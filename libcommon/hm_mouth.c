@@ -1,5 +1,4 @@
-/* hm_outline_mouth: the ends of the lower mesh's outline at the higher mesh's border. */
-#include "hm_outline_private.h"
+#include "hm_mouth.h"
 
 #include "hm_plane.h"
 #include "hm_pred.h"
@@ -82,8 +81,8 @@ static bool widen(const struct hm_border *h, const size_t *prev, struct hm_cross
     return true;
 }
 
-enum hm_err hm_outline_find_mouths(struct hm_stretches *c, const struct hm_border *h,
-                                   int64_t *widened, struct hm_diag *d)
+enum hm_err hm_mouth_find(struct hm_stretches *c, const struct hm_border *h, int64_t *widened,
+                          struct hm_diag *d)
 {
     struct along *order = hm_alloc(c->ncrossings, sizeof *order);
     size_t *prev = hm_alloc(h->n, sizeof *prev);
@@ -156,7 +155,7 @@ static bool crosses(const struct hm_border *b, const double *p, const double *q)
 /* What speaks against ending the outline at node `j`, counted from the crossing; INT_MAX: it cannot
  * be. node(k) is node[k * step]. */
 static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t step, size_t j,
-                     double notch, const struct hm_seam_sides *s)
+                     double notch, const struct hm_sides *s)
 {
     int32_t last = node[(ptrdiff_t)j * step];
     const double *p = hm_mesh_xy(s->lower, last), *r = hm_mesh_xy(s->higher->mesh, x->attach);
@@ -173,14 +172,14 @@ static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t
         against += 4;
     if (hm_plane_angle(r, beyond, p) < notch)
         against += 2;
-    if (!s->kept[last] && hypot(r[0] - p[0], r[1] - p[1]) < HM_SEAM_CLEAR * s->size[last])
+    if (!s->kept[last] && hypot(r[0] - p[0], r[1] - p[1]) < HM_SIDES_CLEAR * s->size[last])
         against += 1;
     return against;
 }
 
-enum hm_err hm_outline_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
-                              bool at_end, const struct hm_seam_sides *s, size_t limit,
-                              size_t *found, struct hm_diag *d)
+enum hm_err hm_mouth_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                            bool at_end, const struct hm_sides *s, size_t limit, size_t *found,
+                            struct hm_diag *d)
 {
     const struct hm_crossing *x = &c->crossing[at_end ? stretch->to : stretch->from];
     const int32_t *node = c->node + stretch->first + (at_end ? stretch->count - 1 : 0);

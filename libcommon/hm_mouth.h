@@ -1,11 +1,12 @@
-/* hm_outline_private: stretches of outline along a gap, and how they end at the higher mesh.
- * Layer 6. Shared by hm_outline.c, which finds them, and hm_outline_mouth.c, which ties their ends;
- * nobody else's.
+/* hm_mouth: how the outline of the lower mesh ends at the border of the higher one. Layer 6.
+ *
+ * A mouth is a part of the higher border inside the lower mesh. The outline that leads up to it
+ * comes in stretches; each ends in a node of the mouth.
  */
-#ifndef HM_OUTLINE_PRIVATE_H
-#define HM_OUTLINE_PRIVATE_H
+#ifndef HM_MOUTH_H
+#define HM_MOUTH_H
 
-#include "hm_outline.h"
+#include "hm_sides.h"
 
 /* The lower outline enters or leaves the higher mesh, through an edge of its border. */
 struct hm_crossing {
@@ -32,13 +33,13 @@ struct hm_stretches {
 };
 
 /* Give every crossing its attach and beyond. *widened counts the mouths too narrow for two. */
-enum hm_err hm_outline_find_mouths(struct hm_stretches *c, const struct hm_border *higher,
-                                   int64_t *widened, struct hm_diag *d);
+enum hm_err hm_mouth_find(struct hm_stretches *c, const struct hm_border *higher, int64_t *widened,
+                          struct hm_diag *d);
 
 /* Which node of the stretch is joined to the attach of its crossing at the end (at_end), or at the
  * beginning: its number in the stretch, among the `limit` nodes next to that crossing. */
-enum hm_err hm_outline_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
-                              bool at_end, const struct hm_seam_sides *s, size_t limit,
-                              size_t *node, struct hm_diag *d);
+enum hm_err hm_mouth_attach(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                            bool at_end, const struct hm_sides *s, size_t limit, size_t *node,
+                            struct hm_diag *d);
 
 #endif

@@ -1,12 +1,12 @@
 #include "hm_outline.h"
 
-#include "hm_outline_private.h"
+#include "hm_mouth.h"
 
 #include <stdlib.h>
 
 /* Walking the lower mesh's old outline for the stretches along the gap. */
 struct walk {
-    const struct hm_seam_sides *s;
+    const struct hm_sides *s;
     struct hm_stretches *stretches;
     int32_t *rest_next; /* of lower's nodes: the next one on the border of the rest, or -1 */
     bool open;          /* the last stretch is being added to */
@@ -127,7 +127,7 @@ static enum hm_err walk_loop(struct walk *w, size_t begin, size_t end)
     return err;
 }
 
-static enum hm_err find_stretches(struct hm_stretches *c, const struct hm_seam_sides *s,
+static enum hm_err find_stretches(struct hm_stretches *c, const struct hm_sides *s,
                                   struct hm_diag *d)
 {
     struct walk w = {.s = s, .stretches = c, .d = d};
@@ -150,7 +150,7 @@ static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struc
 {
     if (!hm_grow(&o->segment, &o->cap, o->n + 1, sizeof *o->segment))
         return hm_fail_memory(d);
-    o->segment[o->n++] = (struct hm_seam_segment){a, b};
+    o->segment[o->n++] = (struct hm_outline_segment){a, b};
     return HM_OK;
 }
 
@@ -158,16 +158,16 @@ static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struc
  * one where it ends there. A stretch that cannot be joined to the higher mesh is left out, and with
  * it the ground behind it, when nothing of the lower mesh stays that would then be cut off. */
 static enum hm_err add_stretch(struct hm_outline *o, const struct hm_stretches *c,
-                               const struct hm_stretch *stretch, const struct hm_seam_sides *s,
+                               const struct hm_stretch *stretch, const struct hm_sides *s,
                                struct hm_diag *d)
 {
     size_t first = 0, last = stretch->count - 1;
     struct hm_diag failure = {0};
     enum hm_err err = HM_OK;
     if (stretch->from >= 0)
-        err = hm_outline_attach(c, stretch, false, s, stretch->count, &first, &failure);
+        err = hm_mouth_attach(c, stretch, false, s, stretch->count, &first, &failure);
     if (!err && stretch->to >= 0)
-        err = hm_outline_attach(c, stretch, true, s, stretch->count - first, &last, &failure);
+        err = hm_mouth_attach(c, stretch, true, s, stretch->count - first, &last, &failure);
     if (err && s->rest->n == 0)
         return HM_OK;
     if (err && d && !d->err)
@@ -184,13 +184,13 @@ static enum hm_err add_stretch(struct hm_outline *o, const struct hm_stretches *
     return err;
 }
 
-enum hm_err hm_outline_make(struct hm_outline *o, const struct hm_seam_sides *s, struct hm_diag *d)
+enum hm_err hm_outline_make(struct hm_outline *o, const struct hm_sides *s, struct hm_diag *d)
 {
     *o = (struct hm_outline){0};
     struct hm_stretches c = {0};
     enum hm_err err = find_stretches(&c, s, d);
     if (!err)
-        err = hm_outline_find_mouths(&c, s->higher, &o->widened, d);
+        err = hm_mouth_find(&c, s->higher, &o->widened, d);
     for (size_t i = 0; !err && i < c.nstretches; i++)
         err = add_stretch(o, &c, &c.stretch[i], s, d);
     free(c.stretch);

@@ -16,7 +16,7 @@ enum { MARK = 1, OUTSIDE = 1 }; /* the mark of all constraints; the region beyon
 
 /* All that belongs to one gap. */
 struct gap {
-    struct hm_seam_sides s;
+    struct hm_sides s;
     struct hm_border rest;
     struct hm_mesh kept; /* the elements that stay, on the lower mesh's nodes */
     double *size;
@@ -72,15 +72,15 @@ static enum hm_err prepare(struct gap *g, const struct hm_border *higher,
         err = hm_border_build(&g->rest, &g->kept, d);
     if (err)
         return err;
-    g->s = (struct hm_seam_sides){.higher = higher,
-                                  .in_higher = in_higher,
-                                  .lower = lower->mesh,
-                                  .in_lower = in_lower,
-                                  .gone = gone,
-                                  .outline = lower,
-                                  .rest = &g->rest,
-                                  .size = g->size,
-                                  .kept = g->used};
+    g->s = (struct hm_sides){.higher = higher,
+                             .in_higher = in_higher,
+                             .lower = lower->mesh,
+                             .in_lower = in_lower,
+                             .gone = gone,
+                             .outline = lower,
+                             .rest = &g->rest,
+                             .size = g->size,
+                             .kept = g->used};
     return hm_outline_make(&g->sides, &g->s, d);
 }
 
@@ -94,7 +94,7 @@ static enum hm_err add_input(struct gap *g, int32_t node, struct hm_diag *d)
     if (!hm_grow(&g->node, &g->cap, g->n + 1, sizeof *g->node) ||
         !hm_grow(&g->xy, &g->xy_cap, g->n + 1, sizeof *g->xy))
         return hm_fail_memory(d);
-    memcpy(g->xy[g->n], hm_seam_xy(&g->s, node), sizeof g->xy[g->n]);
+    memcpy(g->xy[g->n], hm_sides_xy(&g->s, node), sizeof g->xy[g->n]);
     g->node[g->n] = node;
     *slot = (int32_t)g->n++;
     return HM_OK;
@@ -135,12 +135,12 @@ static bool is_free(const struct gap *g, const struct hm_boxtree *sides, int32_t
     const double *p = hm_mesh_xy(g->s.lower, node), size = g->size[node];
     if (g->used[node] || size == 0 || g->slot[1][node] >= 0 ||
         hm_locate_element(g->s.in_higher, p[0], p[1]) >= 0 ||
-        hm_border_is_near(g->s.higher, p, HM_SEAM_CLEAR, size))
+        hm_border_is_near(g->s.higher, p, HM_SIDES_CLEAR, size))
         return false;
     struct hm_boxquery q = hm_boxtree_find(sides, hm_box_grown(hm_box_of(p, p), side_clear * size));
     for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;) {
-        const struct hm_seam_segment *side = &g->sides.segment[i];
-        if (hm_plane_distance(p, hm_seam_xy(&g->s, side->a), hm_seam_xy(&g->s, side->b)) <
+        const struct hm_outline_segment *side = &g->sides.segment[i];
+        if (hm_plane_distance(p, hm_sides_xy(&g->s, side->a), hm_sides_xy(&g->s, side->b)) <
             side_clear * size)
             return false;
     }
@@ -163,8 +163,8 @@ static enum hm_err add_free_nodes(struct gap *g, struct hm_diag *d)
     bool *outer = outline_nodes(g);
     enum hm_err err = box && outer ? HM_OK : hm_fail_memory(d);
     for (size_t i = 0; !err && i < g->sides.n; i++)
-        box[i] = hm_box_of(hm_seam_xy(&g->s, g->sides.segment[i].a),
-                           hm_seam_xy(&g->s, g->sides.segment[i].b));
+        box[i] = hm_box_of(hm_sides_xy(&g->s, g->sides.segment[i].a),
+                           hm_sides_xy(&g->s, g->sides.segment[i].b));
     if (!err)
         err = hm_boxtree_build(&sides, box, g->sides.n, d);
     for (size_t i = 0; !err && i < g->s.lower->nnodes; i++)

@@ -1,5 +1,4 @@
-/* hm_tri_refine: a constrained triangulation made finer until its triangles are good. Layer 3, on
- * hm_tri.
+/* hm_tri_refine: a constrained triangulation made finer until its triangles are good. Layer 2.
  *
  * Delaunay refinement (Ruppert 1995; Chew 1993; off-centres, Üngör 2004): a vertex goes near the
  * circumcentre of a bad triangle, the one with the shortest edge first; when it would come too near

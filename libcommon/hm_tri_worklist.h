@@ -1,5 +1,5 @@
-/* hm_tri_worklist: triangles to be refined, those with the shortest edges first. Internal to
- * hm_tri_refine.c.
+/* hm_tri_worklist: triangles to be refined, those with the shortest edges first. Layer 2.
+ * Internal to hm_tri_refine.c.
  *
  * Lists of equal priority, four to a doubling of the length, first in first out: nearly sorted, at
  * the cost of a queue.

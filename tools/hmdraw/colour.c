@@ -51,3 +51,8 @@ struct rgb owner_colour(int32_t owner)
     enum { COLOURS = sizeof palette / sizeof *palette };
     return palette[(owner - 1) % COLOURS];
 }
+
+void set_colour(struct page *page, struct rgb colour, double alpha)
+{
+    cairo_set_source_rgba(page->cr, colour.r, colour.g, colour.b, alpha);
+}

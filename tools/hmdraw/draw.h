@@ -26,6 +26,9 @@ struct rgb ramp_colour(enum ramp ramp, double t); /* t 0 .. 1, clamped */
 struct rgb owner_colour(int32_t owner);           /* owner or region 1, 2, … */
 double range_part(struct range range, double v);  /* 0 at lo, 1 at hi */
 
+struct page;
+void set_colour(struct page *page, struct rgb colour, double alpha);
+
 extern const struct rgb INK, PAPER, GREY, BREAKLINE, ROUGH, STRING, GOOD, FAIR, POOR;
 
 /* --- page.c --- */
@@ -50,10 +53,10 @@ enum format { FORMAT_PNG, FORMAT_SVG, FORMAT_PDF };
 
 enum { LEGEND_ITEMS = 24, LEGEND_TEXT = 40 };
 
-enum mark { MARK_LINE, MARK_DASHES, MARK_DOT, MARK_FILL, MARK_BAR };
+enum legend_mark { MARK_LINE, MARK_DASHES, MARK_DOT, MARK_FILL, MARK_BAR };
 
 struct legend_item {
-    enum mark mark;
+    enum legend_mark mark;
     char text[LEGEND_TEXT];
     struct rgb colour;
     int64_t count;      /* what the item counts; -1: nothing */
@@ -85,8 +88,6 @@ void page_furnish(struct page *page, const char *title);
 enum hm_err page_close(struct page *page, cairo_write_func_t write, void *closure,
                        struct hm_diag *d);
 
-void page_colour(struct page *page, struct rgb colour, double alpha);
-
 /* An image that covers the map, `zoom` pixels a page unit: premultiplied ARGB, row by row. */
 struct image {
     cairo_surface_t *surface;
@@ -101,7 +102,7 @@ void image_paint(struct image *image, struct page *page); /* and free */
 /* --- legend.c --- */
 
 /* Enter an item, or add its count to the one that has the same text and mark. */
-void legend_add(struct page *page, enum mark mark, struct rgb colour, int64_t count,
+void legend_add(struct page *page, enum legend_mark mark, struct rgb colour, int64_t count,
                 const char *format, ...) __attribute__((format(printf, 5, 6)));
 void legend_bar(struct page *page, enum ramp ramp, struct range range, const char *text);
 void legend_draw(struct page *page, double x, double y);

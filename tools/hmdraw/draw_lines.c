@@ -80,7 +80,7 @@ static void draw_line(struct page *page, const struct hm_line *line, enum hm_rol
     const struct style *style = &styles[role];
     const double em = page->em;
     char limit[8];
-    page_colour(page, *style->colour, 1);
+    set_colour(page, *style->colour, 1);
     cairo_set_line_width(page->cr, style->width * em);
     if (style->dashed)
         cairo_set_dash(page->cr, (double[]){0.6 * em, 0.35 * em}, 2, 0);

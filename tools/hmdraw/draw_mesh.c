@@ -122,7 +122,7 @@ static double class_alpha(const struct page *page, int32_t class, enum fill fill
 static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,
                           int32_t wanted, enum fill fill)
 {
-    page_colour(page, class_colour(wanted, fill), class_alpha(page, wanted, fill));
+    set_colour(page, class_colour(wanted, fill), class_alpha(page, wanted, fill));
     int64_t count = 0;
     for (size_t k = 0; k < m->nelems; k++) {
         if (class[k] != wanted || !is_visible(&page->view, m, &m->elem[k]))
@@ -230,15 +230,15 @@ static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const 
     /* fine meshes get finer and fainter wires, so that they do not turn black */
     const double length = mean_edge(page, m, edges, n), em = page->em;
     const double width = fmin(0.05 * em, fmax(0.25, 0.06 * length));
-    page_colour(page, INK, fmin(0.75, fmax(0.15, length / 16)));
+    set_colour(page, INK, fmin(0.75, fmax(0.15, length / 16)));
     cairo_set_line_width(page->cr, width);
     cairo_set_antialias(page->cr, length < 2 ? CAIRO_ANTIALIAS_FAST : CAIRO_ANTIALIAS_DEFAULT);
     stroke_edges(page, m, edges, n, class, fill, WIRE);
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_DEFAULT);
-    page_colour(page, ROUGH, 0.9);
+    set_colour(page, ROUGH, 0.9);
     cairo_set_line_width(page->cr, fmax(2 * width, 0.05 * em));
     stroke_edges(page, m, edges, n, class, fill, SEAM);
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
     cairo_set_line_width(page->cr, fmax(2 * width, 0.08 * em));
     stroke_edges(page, m, edges, n, class, fill, BORDER);
     free(edges);

@@ -26,7 +26,7 @@ void draw_text(struct page *page, double x, double y, double size, const char *t
 
 /* --- entries --- */
 
-static struct legend_item *find(struct page *page, enum mark mark, const char *text)
+static struct legend_item *find(struct page *page, enum legend_mark mark, const char *text)
 {
     for (size_t k = 0; k < page->nitems; k++)
         if (page->item[k].mark == mark && !strcmp(page->item[k].text, text))
@@ -39,7 +39,7 @@ static struct legend_item *find(struct page *page, enum mark mark, const char *t
     return item;
 }
 
-void legend_add(struct page *page, enum mark mark, struct rgb colour, int64_t count,
+void legend_add(struct page *page, enum legend_mark mark, struct rgb colour, int64_t count,
                 const char *format, ...)
 {
     char text[LEGEND_TEXT];
@@ -84,7 +84,7 @@ static void draw_sample(struct page *page, const struct legend_item *item, doubl
 {
     cairo_t *cr = page->cr;
     const double em = page->em, width = 2 * em;
-    page_colour(page, item->colour, 1);
+    set_colour(page, item->colour, 1);
     cairo_set_line_width(cr, 0.13 * em);
     switch (item->mark) {
     case MARK_DASHES:
@@ -104,12 +104,12 @@ static void draw_sample(struct page *page, const struct legend_item *item, doubl
     case MARK_BAR:
         cairo_rectangle(cr, x + 0.2 * em, y - 0.85 * em, 1.6 * em, em);
         cairo_fill_preserve(cr);
-        page_colour(page, INK, 1);
+        set_colour(page, INK, 1);
         cairo_set_line_width(cr, 0.05 * em);
         cairo_stroke(cr);
         break;
     }
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
 }
 
 /* A colour bar of nice values, highest on top; returns its height. */
@@ -129,7 +129,7 @@ static double draw_bar(struct page *page, const struct legend_item *item, double
     cairo_set_source(cr, shade);
     cairo_fill_preserve(cr);
     cairo_pattern_destroy(shade);
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
     cairo_set_line_width(cr, 0.05 * em);
     cairo_stroke(cr);
     double step = r.hi > r.lo ? nice_step((r.hi - r.lo) / 4) : 1;
@@ -192,10 +192,10 @@ static double draw_item(struct page *page, const struct legend_item *item, doubl
     cairo_text_extents(page->cr, item->text, &box);
     print_count(count, sizeof count, item->count);
     bool below = 2.5 * em + box.x_advance + 0.6 * em * (double)strlen(count) > 15.5 * em;
-    page_colour(page, (struct rgb){0.4, 0.4, 0.4}, 1);
+    set_colour(page, (struct rgb){0.4, 0.4, 0.4}, 1);
     draw_text(page, below ? left : left + box.x_advance + 0.6 * em, below ? y + 1.15 * em : y,
               0.85 * em, count);
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
     return below ? 2.8 * em : 1.7 * em;
 }
 
@@ -204,7 +204,7 @@ void legend_draw(struct page *page, double x, double y)
     const double em = page->em, bottom = page->height - 2.2 * em;
     size_t bars = 0;
     y += em;
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
     for (size_t k = 0; k < page->nitems; k++)
         if (page->item[k].mark == MARK_BAR)
             bars++;

@@ -71,7 +71,7 @@ enum hm_err page_open(struct page *page, double size, const char *title, cairo_w
     cairo_font_options_destroy(options);
     cairo_select_font_face(page->cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            CAIRO_FONT_WEIGHT_NORMAL);
-    page_colour(page, PAPER, 1);
+    set_colour(page, PAPER, 1);
     cairo_paint(page->cr);
     cairo_save(page->cr);
     cairo_rectangle(page->cr, page->view.x, page->view.y, page->view.width, page->view.height);
@@ -110,11 +110,6 @@ enum hm_err page_close(struct page *page, cairo_write_func_t write, void *closur
         err = check(cairo_surface_status(page->surface), d);
     cairo_surface_destroy(page->surface);
     return err;
-}
-
-void page_colour(struct page *page, struct rgb colour, double alpha)
-{
-    cairo_set_source_rgba(page->cr, colour.r, colour.g, colour.b, alpha);
 }
 
 /* --- the frame --- */
@@ -173,7 +168,7 @@ void page_furnish(struct page *page, const char *title)
     cairo_restore(page->cr); /* the clip to the map */
     if (page->plain)
         return;
-    page_colour(page, INK, 1);
+    set_colour(page, INK, 1);
     cairo_set_line_width(page->cr, 1);
     cairo_rectangle(page->cr, v->x - 0.5, v->y - 0.5, v->width + 1, v->height + 1);
     cairo_stroke(page->cr);

@@ -192,6 +192,8 @@ static enum hm_err add_breaklines(struct hm_build *b, struct hm_diag *d)
 
 /* --- measurements, and their hull --- */
 
+/* Their heights come from the terrain: it knows what several at one place are worth together, and
+ * whether a grid replaces them. */
 static enum hm_err add_points(struct hm_build *b, struct hm_diag *d)
 {
     b->first_point = b->nnodes;
@@ -199,13 +201,15 @@ static enum hm_err add_points(struct hm_build *b, struct hm_diag *d)
         const struct hm_points *p = &b->in->points[k];
         for (size_t i = 0; i < p->n; i++) {
             const double *row = p->v + i * p->stride;
+            if (!isfinite(row[2]))
+                continue;
             if (b->in->nmeshes > 0 &&
                 hm_fence_is_near(b->fence, row[0], row[1], b->in->clearance)) {
                 b->counts->near_points++;
                 continue;
             }
             int32_t number;
-            enum hm_err err = add_node(b, row, &number, d);
+            enum hm_err err = add_node(b, (double[3]){row[0], row[1], NAN}, &number, d);
             if (err)
                 return err;
         }
@@ -309,7 +313,7 @@ static enum hm_err triangulate(struct hm_build *b, struct hm_diag *d)
     b->counts->overlaps = mends.overlaps;
     b->counts->zero_length = mends.zero_length;
     for (size_t i = b->first_point; i < b->end_points; i++)
-        if (hm_tri_input(b->tri, hm_tri_of_input(b->tri, i)) != (int64_t)i)
+        if (hm_tri_input(b->tri, hm_tri_of_input(b->tri, i)) < (int64_t)b->first_point)
             b->counts->duplicates++;
     return err;
 }

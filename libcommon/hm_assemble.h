@@ -16,7 +16,7 @@ struct hm_assembly {
     const struct hm_lines *lines;
     const struct hm_mesh *meshes;
     size_t npoints, nlines, nmeshes;
-    const struct hm_terrain *terrain; /* heights for what has none */
+    const struct hm_terrain *terrain; /* heights of measurements, and of what has none */
     double clearance;                 /* m: what is nearer to a regular mesh is cut off */
     bool line_z_terrain;              /* heights of breaklines from the terrain, not their own */
     int threads;
@@ -25,7 +25,7 @@ struct hm_assembly {
 /* What was done on the way. */
 struct hm_assembly_counts {
     /* mended */
-    int64_t duplicates;  /* measurements at the place of another node */
+    int64_t duplicates;  /* measurements at a node of a line or a regular mesh */
     int64_t crossings;   /* of lines: a new node at each */
     int64_t on_lines;    /* nodes that lay on a line and split it */
     int64_t overlaps;    /* pieces of lines drawn twice */

@@ -210,13 +210,14 @@ static enum hm_err find_median(struct hm_build *b, const struct hm_domain *dom, 
     return HM_OK;
 }
 
-/* Heights of the nodes that have none: of outlines, of crossings, of lines drawn without. */
+/* Heights of the nodes that have none: of measurements, of outlines, of crossings, of lines drawn
+ * without. In the order of the vertices, which are neighbours. */
 static enum hm_err give_heights(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
 {
     int32_t hint = 0;
-    for (size_t i = 0; i < dom->nnodes; i++) {
-        struct hm_node *node = &dom->node[i];
-        if (isfinite(node->z))
+    for (int32_t v = 0; v < hm_tri_vertices(b->tri); v++) {
+        struct hm_node *node = dom->node_of[v] < 0 ? NULL : &dom->node[dom->node_of[v]];
+        if (!node || isfinite(node->z))
             continue;
         node->z = hm_terrain_z_nearest(b->in->terrain, node->x, node->y, &hint);
         if (!isfinite(node->z))

@@ -84,6 +84,13 @@ void hm_cli_mended(struct hm_cli *cli, int64_t n, const char *format, ...)
     va_end(args);
 }
 
+void hm_cli_mended_points(struct hm_cli *cli, int64_t without_z, int64_t duplicates)
+{
+    hm_cli_mended(cli, without_z, "%lld points without a height left out", (long long)without_z);
+    hm_cli_mended(cli, duplicates, "%lld points at the place of another: their mean height counts",
+                  (long long)duplicates);
+}
+
 static double seconds(void)
 {
     struct timespec t;

@@ -27,6 +27,7 @@
 #define HM_CLI_H
 
 #include "hm_data.h"
+#include "hm_inputs.h"
 
 #define HM_VERSION "0.1"
 
@@ -87,16 +88,8 @@ size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least 
 bool hm_cli_next(struct hm_cli *cli, struct hm_header *h);
 struct hm_reader *hm_cli_reader(struct hm_cli *cli); /* of the object just given */
 
-/* All objects at once, by kind, in order. */
-struct hm_inputs {
-    struct hm_points *points;
-    struct hm_grid *grid;
-    struct hm_lines *lines;
-    struct hm_mesh *mesh;
-    size_t npoints, ngrids, nlines, nmeshes;
-};
+/* All objects at once. */
 void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in);
-void hm_inputs_free(struct hm_inputs *in);
 
 /* Bring keys and history of every input seen so far, and then this program's own line, into the
  * header of a product. */
@@ -116,6 +109,8 @@ void hm_cli_say(struct hm_cli *cli, const char *format, ...) __attribute__((form
 /* As hm_cli_say, when n > 0; and --strict turns it into exit 1 at the end. */
 void hm_cli_mended(struct hm_cli *cli, int64_t n, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* What a terrain left out or merged among its measurements (hm_terrain_counts). */
+void hm_cli_mended_points(struct hm_cli *cli, int64_t without_z, int64_t duplicates);
 /* Progress "text: p %", on a terminal only, after two seconds. Call as often as you like. */
 void hm_cli_progress(struct hm_cli *cli, const char *text, double part);
 

@@ -1,5 +1,6 @@
 #include "hm_elem.h"
 
+#include "hm_plane.h"
 #include "hm_pred.h"
 
 #include <math.h>
@@ -93,16 +94,6 @@ bool hm_elem_is_convex(const struct hm_mesh *m, const struct hm_elem *e)
     return true;
 }
 
-static double triangle_height(double p[4][2], const double z[4], double px, double py)
-{
-    double at[2] = {px, py};
-    double area2 = hm_area2(p[0], p[1], p[2]);
-    if (area2 == 0)
-        return (z[0] + z[1] + z[2]) / 3;
-    double w1 = hm_area2(p[0], at, p[2]) / area2, w2 = hm_area2(p[0], p[1], at) / area2;
-    return z[0] + w1 * (z[1] - z[0]) + w2 * (z[2] - z[0]);
-}
-
 static double cross(const double a[2], const double b[2])
 {
     return a[0] * b[1] - a[1] * b[0];
@@ -138,7 +129,8 @@ double hm_elem_height(const struct hm_mesh *m, const struct hm_elem *e, double p
     int n = hm_elem_xy(m, e, p);
     for (int i = 0; i < n; i++)
         z[i] = m->node[e->node[i]].z;
-    return n == 3 ? triangle_height(p, z, px, py) : quad_height(p, z, px, py);
+    const double at[2] = {px, py};
+    return n == 3 ? hm_plane_height(p[0], p[1], p[2], z, at) : quad_height(p, z, px, py);
 }
 
 bool hm_elem_holds(const struct hm_mesh *m, const struct hm_elem *e, double px, double py)

@@ -7,31 +7,30 @@
 
 /* Scan conversion. A row of the lattice crosses two edges of a triangle; the crossings are computed
  * from the edge alone, ends in lexicographic order, so both triangles beside it see the same number
- * and each node between belongs to exactly one of them (left end closed, right end open). Heights
- * are linear along the two edges and then between the crossings: always between the heights of the
- * vertices, however thin the triangle. Coordinates are counted in cells from the first node.
+ * and each node between belongs to exactly one of them (left end closed, right end open).
+ * Coordinates are counted in cells from the first node.
  */
 enum { CHUNK = 1 << 14 };
 
 struct raster {
-    const struct hm_tri *t;
+    const struct hm_tin *tin;
+    const struct hm_tri *t; /* the tin's */
     const struct hm_anchor *a;
-    const double *height;
+    struct hm_lattice l; /* the same nodes */
     double *z;
-    double x0, y0, gap2;
+    double gap;
     bool *covered;  /* a triangle: neither ghost nor gap */
     size_t *in_gap; /* a chunk: nodes in gap triangles */
 };
 
 struct corner {
-    double x, y, z;
+    double x, y;
 };
 
 static struct corner corner_at(const struct raster *r, int32_t v)
 {
     const double *xy = hm_tri_xy(r->t, v);
-    return (struct corner){(xy[0] - r->x0) / r->a->spacing, (xy[1] - r->y0) / r->a->spacing,
-                           r->height[v]};
+    return (struct corner){(xy[0] - r->l.x0) / r->l.dx, (xy[1] - r->l.y0) / r->l.dy};
 }
 
 static bool before(const struct corner *a, const struct corner *b)
@@ -45,22 +44,13 @@ static struct corner crossing(const struct corner *low, const struct corner *hig
     double t = (y - low->y) / (high->y - low->y);
     if (t >= 1)
         return *high;
-    return (struct corner){low->x + t * (high->x - low->x), y, low->z + t * (high->z - low->z)};
+    return (struct corner){low->x + t * (high->x - low->x), y};
 }
 
-static double edge_length2(const struct raster *r, int32_t e)
+/* Height at node (i, j) in a triangle. */
+static double height(const struct raster *r, int32_t tri, int64_t i, int64_t j)
 {
-    const double *a = hm_tri_xy(r->t, hm_tri_org(r->t, e));
-    const double *b = hm_tri_xy(r->t, hm_tri_dest(r->t, e));
-    return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
-}
-
-static bool is_gap(const struct raster *r, int32_t tri)
-{
-    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++)
-        if (edge_length2(r, e) > r->gap2)
-            return true;
-    return false;
+    return hm_tin_height(r->tin, tri, r->l.x0 + (double)i * r->l.dx, r->l.y0 + (double)j * r->l.dy);
 }
 
 /* The first integer >= v, kept within [0, count]. */
@@ -82,9 +72,9 @@ static void sort_corners(struct corner c[3])
     }
 }
 
-/* Nodes of one row between two crossings; the number of them. */
-static size_t fill_span(const struct raster *r, int64_t j, struct corner p, struct corner q,
-                        bool write)
+/* Nodes of one row between two crossings of a triangle; the number of them. */
+static size_t fill_span(const struct raster *r, int32_t tri, int64_t j, struct corner p,
+                        struct corner q, bool write)
 {
     if (q.x < p.x) {
         struct corner swap = p;
@@ -94,7 +84,7 @@ static size_t fill_span(const struct raster *r, int64_t j, struct corner p, stru
     int64_t i0 = first_from(p.x, r->a->nx), i1 = first_from(q.x, r->a->nx);
     double *row = r->z + (size_t)j * r->a->nx;
     for (int64_t i = i0; i < i1 && write; i++)
-        row[i] = p.z + ((double)i - p.x) / (q.x - p.x) * (q.z - p.z);
+        row[i] = height(r, tri, i, j);
     return (size_t)(i1 - i0);
 }
 
@@ -110,7 +100,7 @@ static size_t fill_triangle(const struct raster *r, int32_t tri, bool write)
         double y = (double)j;
         struct corner p = crossing(&c[0], &c[2], y);
         struct corner q = y < c[1].y ? crossing(&c[0], &c[1], y) : crossing(&c[1], &c[2], y);
-        nodes += fill_span(r, j, p, q, write);
+        nodes += fill_span(r, tri, j, p, q, write);
     }
     return nodes;
 }
@@ -123,20 +113,21 @@ static void fill_chunk(void *arg, size_t chunk)
     for (int32_t tri = start; tri < end; tri++) {
         if (!hm_tri_is_solid(r->t, tri))
             continue;
-        r->covered[tri] = !is_gap(r, tri);
+        r->covered[tri] = !hm_tin_is_gap(r->tin, tri, r->gap);
         size_t nodes = fill_triangle(r, tri, r->covered[tri]);
         if (!r->covered[tri])
             r->in_gap[chunk] += nodes;
     }
 }
 
-/* Give node (i, j) on the border its height, unless it has one; the number of nodes set. */
-static size_t set_on_edge(const struct raster *r, int64_t i, int64_t j, double z)
+/* Give node (i, j) on the border of a triangle its height, unless it has one; the number of nodes
+ * set. */
+static size_t set_on_edge(const struct raster *r, int32_t tri, int64_t i, int64_t j)
 {
     double *node = &r->z[(size_t)j * r->a->nx + (size_t)i];
     if (!isnan(*node))
         return 0;
-    *node = z;
+    *node = height(r, tri, i, j);
     return 1;
 }
 
@@ -158,14 +149,12 @@ static size_t fill_edge(const struct raster *r, int32_t e)
             struct corner c = crossing(&p, &q, fmax((double)j, p.y));
             double i = nearbyint(c.x);
             if (fabs(i - c.x) <= near && i >= 0 && i < (double)r->a->nx)
-                set += set_on_edge(r, (int64_t)i, j, c.z);
+                set += set_on_edge(r, e / 3, (int64_t)i, j);
             continue;
         }
         int64_t i0 = first_from(p.x - near, r->a->nx);
-        for (int64_t i = i0; i < (int64_t)r->a->nx && (double)i <= q.x + near; i++) {
-            double t = q.x > p.x ? ((double)i - p.x) / (q.x - p.x) : 0;
-            set += set_on_edge(r, i, j, t >= 1 ? q.z : p.z + fmax(t, 0) * (q.z - p.z));
-        }
+        for (int64_t i = i0; i < (int64_t)r->a->nx && (double)i <= q.x + near; i++)
+            set += set_on_edge(r, e / 3, i, j);
     }
     return set;
 }
@@ -198,14 +187,12 @@ static void count_missing(const struct raster *r, size_t chunks, size_t set_in_g
     count->outside = missing - count->gap;
 }
 
-enum hm_err hm_gridtin(double *z, const struct hm_anchor *a, const struct hm_tri *t,
-                       const double *height, double gap, int threads,
-                       struct hm_gridtin_count *count, struct hm_diag *d)
+enum hm_err hm_gridtin(double *z, const struct hm_anchor *a, const struct hm_tin *tin, double gap,
+                       int threads, struct hm_gridtin_count *count, struct hm_diag *d)
 {
-    struct hm_lattice l = hm_anchor_lattice(a);
-    struct raster r = {.t = t, .a = a, .height = height, .z = z, .x0 = l.x0, .y0 = l.y0};
-    r.gap2 = gap * gap;
-    size_t triangles = (size_t)hm_tri_triangles(t), chunks = triangles / CHUNK + 1;
+    struct raster r = {
+        .tin = tin, .t = tin->tri, .a = a, .l = hm_anchor_lattice(a), .z = z, .gap = gap};
+    size_t triangles = (size_t)hm_tri_triangles(r.t), chunks = triangles / CHUNK + 1;
     r.covered = hm_alloc0(triangles, sizeof *r.covered);
     r.in_gap = hm_alloc0(chunks, sizeof *r.in_gap);
     enum hm_err err = r.covered && r.in_gap ? HM_OK : hm_fail_memory(d);
@@ -219,62 +206,5 @@ enum hm_err hm_gridtin(double *z, const struct hm_anchor *a, const struct hm_tri
     }
     free(r.covered);
     free(r.in_gap);
-    return err;
-}
-
-/* --- heights of vertices --- */
-
-struct shared {
-    int32_t vertex;
-    double z;
-};
-
-static int by_vertex_and_z(const void *a, const void *b)
-{
-    const struct shared *s = a, *t = b;
-    if (s->vertex != t->vertex)
-        return s->vertex < t->vertex ? -1 : 1;
-    return (s->z > t->z) - (s->z < t->z);
-}
-
-/* Means of the heights that share a vertex; sorted first, so that their order does not matter. */
-static void take_means(double *height, struct shared *s, size_t n)
-{
-    qsort(s, n, sizeof *s, by_vertex_and_z);
-    for (size_t k = 0, end; k < n; k = end) {
-        double sum = 0;
-        for (end = k; end < n && s[end].vertex == s[k].vertex; end++)
-            sum += s[end].z;
-        height[s[k].vertex] = sum / (double)(end - k);
-    }
-}
-
-enum hm_err hm_gridtin_heights(double **height, const struct hm_tri *t, const double *xyz, size_t n,
-                               struct hm_diag *d)
-{
-    size_t vertices = (size_t)hm_tri_vertices(t), nshared = 0;
-    bool *is_shared = hm_alloc0(vertices, sizeof *is_shared);
-    /* each merged point brings itself and at most one first point */
-    struct shared *s = hm_alloc(2 * hm_tri_duplicates(t), sizeof *s);
-    *height = hm_alloc(vertices, sizeof **height);
-    enum hm_err err = is_shared && s && *height ? HM_OK : hm_fail_memory(d);
-    for (size_t k = 0; k < n && !err; k++) {
-        int32_t v = hm_tri_of_input(t, k);
-        if (hm_tri_input(t, v) == (int64_t)k)
-            (*height)[v] = xyz[3 * k + 2];
-        else
-            is_shared[v] = true;
-    }
-    for (size_t k = 0; k < n && !err; k++)
-        if (is_shared[hm_tri_of_input(t, k)])
-            s[nshared++] = (struct shared){hm_tri_of_input(t, k), xyz[3 * k + 2]};
-    if (!err)
-        take_means(*height, s, nshared);
-    free(is_shared);
-    free(s);
-    if (err) {
-        free(*height);
-        *height = NULL;
-    }
     return err;
 }

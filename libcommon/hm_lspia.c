@@ -15,7 +15,7 @@ struct sample {
 
 struct lspia {
     struct hm_bsurf *s;
-    struct sample *sample; /* by the row of control points below them, else in the order given */
+    struct sample *sample; /* by the row of control points below them, then by u, v, z */
     size_t *start;         /* a row: its first sample; m + 1 */
     double *sum;           /* a band: sum of squares, and the number of samples */
     bool *failed;          /* a band */
@@ -35,6 +35,17 @@ static size_t row_of(const struct hm_bsurf *s, const double *uvz)
     return (size_t)uvz[1];
 }
 
+static int by_place(const void *pa, const void *pb)
+{
+    const struct sample *a = pa, *b = pb;
+    if (a->u != b->u)
+        return a->u < b->u ? -1 : 1;
+    if (a->v != b->v)
+        return a->v < b->v ? -1 : 1;
+    return (a->z > b->z) - (a->z < b->z);
+}
+
+/* In an order that does not depend on that of the measurements: nor will rounding in the sums. */
 static enum hm_err sort_samples(struct lspia *l, const double *uvz, size_t n, struct hm_diag *d)
 {
     size_t m = l->s->m;
@@ -56,6 +67,10 @@ static enum hm_err sort_samples(struct lspia *l, const double *uvz, size_t n, st
             l->sample[next[row]++] = (struct sample){uvz[0], uvz[1], uvz[2], 0};
     }
     free(next);
+    for (size_t j = 0; j < m; j++)
+        if (l->start[j + 1] > l->start[j])
+            qsort(l->sample + l->start[j], l->start[j + 1] - l->start[j], sizeof *l->sample,
+                  by_place);
     return HM_OK;
 }
 

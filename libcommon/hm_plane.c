@@ -110,3 +110,31 @@ double hm_plane_angle(const double *at, const double *a, const double *b)
     double dot = (a[0] - at[0]) * (b[0] - at[0]) + (a[1] - at[1]) * (b[1] - at[1]);
     return fabs(atan2(hm_area2(at, a, b), dot)) * 180 / acos(-1);
 }
+
+static bool is_before(const double *a, const double *b)
+{
+    return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
+}
+
+/* Barycentric weights, as areas that are never negative. What is added up are differences to the
+ * height of the heaviest corner: a level triangle gives just its level. */
+double hm_plane_height(const double *a, const double *b, const double *c, const double z[3],
+                       const double *p)
+{
+    const double *corner[3] = {a, b, c};
+    double weight[3], whole = 0, sum = 0;
+    int first = is_before(b, a) ? 1 : 0;
+    first = is_before(c, corner[first]) ? 2 : first;
+    int order[3] = {first, (first + 1) % 3, (first + 2) % 3}, base = first;
+    for (int i = 0; i < 3; i++) {
+        int k = order[i];
+        if (corner[k][0] == p[0] && corner[k][1] == p[1])
+            return z[k];
+        weight[k] = fabs(hm_area2(corner[(k + 1) % 3], corner[(k + 2) % 3], p));
+        whole += weight[k];
+        base = weight[k] > weight[base] ? k : base;
+    }
+    for (int i = 0; i < 3; i++)
+        sum += (whole > 0 ? weight[order[i]] : 1) * (z[order[i]] - z[base]);
+    return z[base] + sum / (whole > 0 ? whole : 3); /* 3: too small for doubles */
+}

@@ -1,4 +1,4 @@
-/* hm_plane: points and segments in the plane. Layer 2. A point is its x and y. */
+/* hm_plane: points, segments and triangles in the plane. Layer 2. A point is its x and y. */
 #ifndef HM_PLANE_H
 #define HM_PLANE_H
 
@@ -32,5 +32,11 @@ double hm_plane_meeting(const double *a, const double *b, const double *c, const
 
 /* The angle at `at` between the ways to a and to b, 0 .. 180 degrees. */
 double hm_plane_angle(const double *at, const double *a, const double *b);
+
+/* Height at p of the triangle a, b, c (either way round) whose corners have the heights z. For p in
+ * the triangle or, as rounding has it, beside its border: always between the heights of the
+ * corners, at a corner its height to the last bit, and the same whichever corner comes first. */
+double hm_plane_height(const double *a, const double *b, const double *c, const double z[3],
+                       const double *p);
 
 #endif

@@ -1,180 +1,115 @@
 /* hm_terrain: see hm_terrain.h. */
 #include "hm_terrain.h"
-#include "hm_pred.h"
+#include "hm_role.h"
+#include "hm_tin.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-struct source {
-    const struct hm_tri *tri; /* a TIN … */
-    const double *z;          /* by vertex number */
-    double gap;
-    struct hm_tri *own_tri; /* what the terrain itself has to free */
-    double *own_z;
-    const struct hm_grid *grid; /* … or a grid */
-};
+#include <string.h>
 
 struct hm_terrain {
-    struct source *source;
-    size_t n, cap;
+    const struct hm_grid *grid;
+    size_t ngrids;
+    struct hm_tin tin; /* without triangulation: no measurement */
+    double gap;
 };
 
-enum hm_err hm_terrain_new(struct hm_terrain **t, struct hm_diag *d)
+/* --- building --- */
+
+/* Places with a height, as x, y, z. */
+struct places {
+    double *xyz;
+    size_t n, cap;
+    int64_t without_z;
+};
+
+static enum hm_err add_place(struct places *p, const double *xyz, struct hm_diag *d)
 {
+    if (!isfinite(xyz[2])) {
+        p->without_z++;
+        return HM_OK;
+    }
+    if (!hm_grow(&p->xyz, &p->cap, 3 * (p->n + 1), sizeof *p->xyz))
+        return hm_fail_memory(d);
+    memcpy(p->xyz + 3 * p->n++, xyz, 3 * sizeof *xyz);
+    return HM_OK;
+}
+
+static enum hm_err add_measurements(struct places *p, const struct hm_inputs *in, struct hm_diag *d)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < in->npoints; k++)
+        n += in->points[k].n;
+    enum hm_err err = hm_grow(&p->xyz, &p->cap, 3 * n, sizeof *p->xyz) ? HM_OK : hm_fail_memory(d);
+    for (size_t k = 0; k < in->npoints; k++)
+        for (size_t i = 0; !err && i < in->points[k].n; i++)
+            err = add_place(p, in->points[k].v + i * in->points[k].stride, d);
+    return err;
+}
+
+static enum hm_err add_lines_and_meshes(struct places *p, const struct hm_inputs *in,
+                                        struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (size_t k = 0; k < in->nlines; k++)
+        for (size_t i = 0; i < in->lines[k].n; i++) {
+            const struct hm_line *line = &in->lines[k].line[i];
+            bool tells = hm_role_of(line->attrs) == HM_ROLE_BREAKLINE;
+            for (size_t j = 0; !err && tells && j < line->n; j++)
+                err = add_place(p, line->xyz + 3 * j, d);
+        }
+    for (size_t k = 0; k < in->nmeshes; k++)
+        for (size_t i = 0; !err && i < in->mesh[k].nnodes; i++)
+            err = add_place(p, &in->mesh[k].node[i].x, d);
+    return err;
+}
+
+static enum hm_err build(struct hm_terrain *t, struct places *p, const struct hm_inputs *in,
+                         int threads, struct hm_terrain_counts *counts, struct hm_diag *d)
+{
+    enum hm_err err = add_measurements(p, in, d);
+    bool measured = p->n > 0;
+    *counts = (struct hm_terrain_counts){.without_z = p->without_z};
+    if (!err && !measured && in->ngrids == 0)
+        err = add_lines_and_meshes(p, in, d);
+    if (!err && p->n > 0)
+        err = hm_tin_build(&t->tin, p->xyz, p->n, threads, d);
+    if (!err && measured)
+        counts->duplicates = (int64_t)hm_tri_duplicates(t->tin.tri);
+    return err;
+}
+
+enum hm_err hm_terrain_build(struct hm_terrain **t, const struct hm_inputs *in, double gap,
+                             int threads, struct hm_terrain_counts *counts, struct hm_diag *d)
+{
+    struct places p = {0};
     *t = hm_alloc0(1, sizeof **t);
-    return *t ? HM_OK : hm_fail_memory(d);
+    if (!*t)
+        return hm_fail_memory(d);
+    **t = (struct hm_terrain){.grid = in->grid, .ngrids = in->ngrids, .gap = gap};
+    enum hm_err err = build(*t, &p, in, threads, counts, d);
+    free(p.xyz);
+    if (err) {
+        hm_terrain_free(*t);
+        *t = NULL;
+    }
+    return err;
 }
 
 void hm_terrain_free(struct hm_terrain *t)
 {
     if (!t)
         return;
-    for (size_t k = 0; k < t->n; k++) {
-        hm_tri_free(t->source[k].own_tri);
-        free(t->source[k].own_z);
-    }
-    free(t->source);
+    hm_tin_free(&t->tin);
     free(t);
 }
 
-bool hm_terrain_is_empty(const struct hm_terrain *t)
-{
-    return t->n == 0;
-}
-
-static enum hm_err add(struct hm_terrain *t, struct source s, struct hm_diag *d)
-{
-    if (!hm_grow(&t->source, &t->cap, t->n + 1, sizeof *t->source))
-        return hm_fail_memory(d);
-    t->source[t->n++] = s;
-    return HM_OK;
-}
-
-enum hm_err hm_terrain_add_tri(struct hm_terrain *t, const struct hm_tri *tri, const double *z,
-                               double gap, struct hm_diag *d)
-{
-    return add(t, (struct source){.tri = tri, .z = z, .gap = gap}, d);
-}
-
-enum hm_err hm_terrain_add_grid(struct hm_terrain *t, const struct hm_grid *g, struct hm_diag *d)
-{
-    return add(t, (struct source){.grid = g}, d);
-}
-
-/* The rows of p that have a height, as xyz triples; *n of them. */
-static double *with_height(const struct hm_points *p, size_t *n)
-{
-    double *xyz = hm_alloc(p->n, 3 * sizeof *xyz);
-    *n = 0;
-    for (size_t i = 0; xyz && i < p->n; i++) {
-        const double *row = p->v + i * p->stride;
-        if (!isfinite(row[2]))
-            continue;
-        for (int k = 0; k < 3; k++)
-            xyz[3 * *n + (size_t)k] = row[k];
-        ++*n;
-    }
-    return xyz;
-}
-
-enum hm_err hm_terrain_add_points(struct hm_terrain *t, const struct hm_points *p, double gap,
-                                  int threads, struct hm_diag *d)
-{
-    size_t n;
-    double *xyz = with_height(p, &n);
-    if (!xyz)
-        return hm_fail_memory(d);
-    if (n == 0) {
-        free(xyz);
-        return HM_OK;
-    }
-    struct source s = {.gap = gap};
-    enum hm_err err = hm_tri_build(&s.own_tri, xyz, n, 3, threads, d);
-    if (!err) {
-        int32_t vertices = hm_tri_vertices(s.own_tri);
-        s.own_z = hm_alloc((size_t)vertices, sizeof *s.own_z);
-        if (s.own_z) {
-            for (int32_t v = 0; v < vertices; v++)
-                s.own_z[v] = xyz[3 * hm_tri_input(s.own_tri, v) + 2];
-            s.tri = s.own_tri;
-            s.z = s.own_z;
-            err = add(t, s, d);
-        } else
-            err = hm_fail_memory(d);
-        if (err) {
-            hm_tri_free(s.own_tri);
-            free(s.own_z);
-        }
-    }
-    free(xyz);
-    return err;
-}
-
-/* --- one TIN --- */
+/* --- one grid --- */
 
 static double distance2(const double *a, double x, double y)
 {
     return (a[0] - x) * (a[0] - x) + (a[1] - y) * (a[1] - y);
 }
-
-/* Linear in the triangle that holds (x, y); NaN outside, and in triangles longer than the gap. */
-static double tin_z(const struct source *s, double x, double y, int32_t *hint)
-{
-    int32_t tri = hm_tri_locate(s->tri, x, y, hint);
-    if (tri == HM_TRI_NONE)
-        return NAN;
-    const double *p[3];
-    double z[3], weight[3], at[2] = {x, y};
-    for (int k = 0; k < 3; k++) {
-        int32_t v = hm_tri_org(s->tri, 3 * tri + k);
-        p[k] = hm_tri_xy(s->tri, v);
-        z[k] = s->z[v];
-    }
-    for (int k = 0; k < 3; k++) {
-        const double *a = p[k], *b = p[(k + 1) % 3];
-        if (s->gap > 0 && distance2(a, b[0], b[1]) > s->gap * s->gap)
-            return NAN;
-        if (a[0] == x && a[1] == y) /* a measurement keeps its height to the last bit */
-            return z[k];
-        weight[(k + 2) % 3] = hm_area2(a, b, at);
-    }
-    double whole = weight[0] + weight[1] + weight[2];
-    if (!(whole > 0)) /* an area too small for doubles */
-        return (z[0] + z[1] + z[2]) / 3;
-    /* differences to z[0]: a level triangle gives just its level */
-    return z[0] + (weight[1] * (z[1] - z[0]) + weight[2] * (z[2] - z[0])) / whole;
-}
-
-/* Height of the vertex nearest to (x, y). In a Delaunay triangulation every vertex but the nearest
- * has a neighbour that is nearer still, so going downhill by distance ends at the right one. */
-static double tin_nearest(const struct source *s, double x, double y, int32_t *hint, double *dist2)
-{
-    int32_t tri = hm_tri_locate(s->tri, x, y, hint);
-    if (tri == HM_TRI_NONE)
-        tri = hint && *hint >= 0 && *hint < hm_tri_triangles(s->tri) ? *hint : 0;
-    int32_t v = HM_TRI_INFINITY;
-    for (int k = 0; k < 3 && v == HM_TRI_INFINITY; k++)
-        v = hm_tri_org(s->tri, 3 * tri + k);
-    *dist2 = distance2(hm_tri_xy(s->tri, v), x, y);
-    for (bool nearer = true; nearer;) {
-        nearer = false;
-        int32_t first = hm_tri_edge_from(s->tri, v), e = first;
-        do {
-            int32_t w = hm_tri_dest(s->tri, e);
-            double far2 = w == HM_TRI_INFINITY ? INFINITY : distance2(hm_tri_xy(s->tri, w), x, y);
-            if (far2 < *dist2) {
-                *dist2 = far2;
-                v = w;
-                nearer = true;
-                break;
-            }
-            e = hm_tri_twin(s->tri, hm_tri_prev(e));
-        } while (e != first);
-    }
-    return s->z[v];
-}
-
-/* --- one grid --- */
 
 static double node_z(const struct hm_grid *g, int64_t i, int64_t j)
 {
@@ -236,44 +171,39 @@ static double grid_nearest(const struct hm_grid *g, double x, double y, double *
     return best;
 }
 
-/* --- all sources --- */
+/* --- all together --- */
 
-/* The hint is one for the first TIN; the others start their search anywhere. */
-static int32_t *hint_of(const struct hm_terrain *t, size_t k, int32_t *hint, int32_t *other)
+static double tin_z(const struct hm_terrain *t, double x, double y, int32_t *hint)
 {
-    for (size_t j = 0; j < k; j++)
-        if (t->source[j].tri) {
-            *other = HM_TRI_NONE;
-            return other;
-        }
-    return hint;
+    int32_t tri = t->tin.tri ? hm_tri_locate(t->tin.tri, x, y, hint) : HM_TRI_NONE;
+    if (tri == HM_TRI_NONE || hm_tin_is_gap(&t->tin, tri, t->gap))
+        return NAN;
+    return hm_tin_height(&t->tin, tri, x, y);
 }
 
 double hm_terrain_z(const struct hm_terrain *t, double x, double y, int32_t *hint)
 {
     double z = NAN;
-    for (size_t k = 0; k < t->n && !isfinite(z); k++) {
-        const struct source *s = &t->source[k];
-        int32_t other;
-        z = s->grid ? grid_z(s->grid, x, y) : tin_z(s, x, y, hint_of(t, k, hint, &other));
-    }
-    return z;
+    for (size_t k = 0; k < t->ngrids && !isfinite(z); k++)
+        z = grid_z(&t->grid[k], x, y);
+    return isfinite(z) ? z : tin_z(t, x, y, hint);
 }
 
 double hm_terrain_z_nearest(const struct hm_terrain *t, double x, double y, int32_t *hint)
 {
-    double z = hm_terrain_z(t, x, y, hint), best2 = INFINITY;
+    double z = hm_terrain_z(t, x, y, hint), best2 = INFINITY, dist2;
     if (isfinite(z))
         return z;
-    for (size_t k = 0; k < t->n; k++) {
-        const struct source *s = &t->source[k];
-        int32_t other;
-        double dist2, here = s->grid ? grid_nearest(s->grid, x, y, &dist2)
-                                     : tin_nearest(s, x, y, hint_of(t, k, hint, &other), &dist2);
+    for (size_t k = 0; k < t->ngrids; k++) {
+        double here = grid_nearest(&t->grid[k], x, y, &dist2);
         if (dist2 < best2) {
             best2 = dist2;
             z = here;
         }
+    }
+    if (t->tin.tri) {
+        double here = hm_tin_nearest(&t->tin, x, y, hint, &dist2);
+        z = dist2 < best2 ? here : z;
     }
     return z;
 }

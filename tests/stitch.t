@@ -163,6 +163,10 @@ joined "a wide buffer" wide.hm main.hm x.hm
 true_that "a wide buffer: area" "($(area wide.hm) - 18000) ^ 2 < (1e-9 * 18000) ^ 2"
 printf '%s\n' '-500 -500 99' '-500 500 99' '500 500 99' '500 -500 99' >flat.xyz
 stitch -w 25 main.hm x.hm flat.xyz >out.hm 2>/dev/null
+grep -v '^#' wide.hm >a
+grep -v '^#' out.hm >b
+same "measurements too far apart tell nothing" a b
+stitch -w 25 -g 2000 main.hm x.hm flat.xyz >out.hm 2>/dev/null
 true_that "the terrain gives the inside of the gap its height: $(grep -c '^v .* 99 0 2$' out.hm) nodes" \
     "$(grep -c '^v .* 99 0 2$' out.hm) > 2 && $(grep -c '^v .* 99 1' out.hm) == 0"
 

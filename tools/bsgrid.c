@@ -134,7 +134,7 @@ static enum hm_err add_point(struct survey *s, const double *p, struct hm_diag *
 {
     if (p[0] < s->reach[0] || p[0] > s->reach[1] || p[1] < s->reach[2] || p[1] > s->reach[3])
         return HM_OK;
-    if (isnan(p[2])) {
+    if (!isfinite(p[2])) {
         s->without_z++;
         return HM_OK;
     }
@@ -210,20 +210,15 @@ static void place_nodes(struct hm_cli *cli, struct survey *s)
 static void start_by_triangles(struct hm_cli *cli, const struct survey *s, double *z)
 {
     struct hm_diag d = {0};
-    struct hm_tri *t;
+    struct hm_tin tin;
     struct hm_gridtin_count count;
-    double *height;
     int threads = hm_cli_threads(cli);
-    hm_cli_check(cli, hm_tri_build(&t, s->xyz, s->n, 3, threads, &d), &d);
-    hm_cli_check(cli, hm_gridtin_heights(&height, t, s->xyz, s->n, &d), &d);
-    hm_cli_check(cli, hm_gridtin(z, &s->nodes, t, height, cmd.gap, threads, &count, &d), &d);
-    hm_cli_mended(cli, (int64_t)hm_tri_duplicates(t),
-                  "%zu points at the place of another: their mean height counts",
-                  hm_tri_duplicates(t));
+    hm_cli_check(cli, hm_tin_build(&tin, s->xyz, s->n, threads, &d), &d);
+    hm_cli_check(cli, hm_gridtin(z, &s->nodes, &tin, cmd.gap, threads, &count, &d), &d);
+    hm_cli_mended_points(cli, 0, (int64_t)hm_tri_duplicates(tin.tri));
     if (!s->has_window && count.gap > 0)
         hm_cli_say(cli, "%zu nodes lie in gaps over %g m (-g) and stay empty", count.gap, cmd.gap);
-    free(height);
-    hm_tri_free(t);
+    hm_tin_free(&tin);
 }
 
 static void start_by_means(struct hm_cli *cli, struct survey *s, double *z)
@@ -342,8 +337,7 @@ int main(int argc, char **argv)
         hm_header_free(&h);
     }
     place_nodes(cli, &s);
-    hm_cli_mended(cli, s.without_z, "%lld points without a height left out",
-                  (long long)s.without_z);
+    hm_cli_mended_points(cli, s.without_z, 0);
     double *z = need(cli, s.nodes.nx * s.nodes.ny, sizeof *z);
     if (cmd.method == MEAN)
         start_by_means(cli, &s, z);

@@ -104,23 +104,19 @@ static bool is_wanted(const struct hm_rough *r)
     return !cmd.surface || !strcmp(cmd.surface, r->name);
 }
 
-/* Measurements first, since they know more than a grid made of them. */
 static void build_terrain(struct hm_cli *cli, struct job *job)
 {
     struct hm_diag d = {0};
+    struct hm_terrain_counts counts;
     double gap = cmd.gap;
     for (size_t k = 0; k < job->nrough && !(cmd.gap > 0); k++)
         if (is_wanted(&job->rough[k]))
             gap = fmax(gap, 5 * job->rough[k].size.along);
     if (job->in.npoints + job->in.ngrids == 0)
         hm_cli_die(cli, "no terrain: measurements (points) or a grid are needed for the heights");
-    hm_cli_check(cli, hm_terrain_new(&job->terrain, &d), &d);
-    for (size_t k = 0; k < job->in.npoints; k++)
-        hm_cli_check(
-            cli, hm_terrain_add_points(job->terrain, &job->in.points[k], gap, job->how.threads, &d),
-            &d);
-    for (size_t k = 0; k < job->in.ngrids; k++)
-        hm_cli_check(cli, hm_terrain_add_grid(job->terrain, &job->in.grid[k], &d), &d);
+    hm_cli_check(cli, hm_terrain_build(&job->terrain, &job->in, gap, job->how.threads, &counts, &d),
+                 &d);
+    hm_cli_mended_points(cli, counts.without_z, counts.duplicates);
 }
 
 static void tell(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,

@@ -1,12 +1,14 @@
 /* stitch: meshes → one conforming mesh. Regular meshes that overlap are cut by priority and the gap
  * is filled; the others are joined to them by their common nodes. */
 #include "hm_cli.h"
+#include "hm_elem.h"
 #include "hm_meshcheck.h"
 #include "hm_owners.h"
 #include "hm_rcm.h"
 #include "hm_stitch.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +24,7 @@ static struct {
     bool components;
     bool renumber;
     const char *name;
+    double gap;
 } cmd;
 
 static const struct hm_option options[] = {
@@ -33,6 +36,8 @@ static const struct hm_option options[] = {
      .given = &cmd.has_tolerance},
     {'c', "components", NULL, HM_OPT_FLAG, &cmd.components,
      .help = "the result may be in several pieces"},
+    {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
+     .help = "measurements farther apart tell no height, m (default 5 elements)"},
     {'r', "renumber", NULL, HM_OPT_FLAG, &cmd.renumber,
      .help = "renumber for a small bandwidth (reverse Cuthill-McKee)"},
     {'N', "name", "NAME", HM_OPT_TEXT, &cmd.name,
@@ -65,6 +70,16 @@ static const char *name_of(const struct hm_mesh *m)
     return name && *name ? name : "a mesh without name";
 }
 
+/* Beyond that the surfaces know more than a triangle across the water: as bsmesh has it. */
+static double usual_gap(const struct hm_inputs *in)
+{
+    double longest = 0;
+    for (size_t i = 0; i < in->nmeshes; i++)
+        for (size_t k = 0; k < in->mesh[i].nelems && is_regular(&in->mesh[i]); k++)
+            longest = fmax(longest, hm_elem_mean_edge(&in->mesh[i], &in->mesh[i].elem[k]));
+    return 5 * longest;
+}
+
 /* The terrain for nodes in gaps; NULL when there is none, or no two meshes could have a gap. */
 static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inputs *in)
 {
@@ -74,13 +89,11 @@ static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inpu
     if (regular < 2 || in->npoints + in->ngrids == 0)
         return NULL;
     struct hm_terrain *terrain;
+    struct hm_terrain_counts counts;
     struct hm_diag d = {0};
-    hm_cli_check(cli, hm_terrain_new(&terrain, &d), &d);
-    for (size_t i = 0; i < in->npoints; i++)
-        hm_cli_check(
-            cli, hm_terrain_add_points(terrain, &in->points[i], 0, hm_cli_threads(cli), &d), &d);
-    for (size_t i = 0; i < in->ngrids; i++)
-        hm_cli_check(cli, hm_terrain_add_grid(terrain, &in->grid[i], &d), &d);
+    double gap = cmd.gap > 0 ? cmd.gap : usual_gap(in);
+    hm_cli_check(cli, hm_terrain_build(&terrain, in, gap, hm_cli_threads(cli), &counts, &d), &d);
+    hm_cli_mended_points(cli, counts.without_z, counts.duplicates);
     return terrain;
 }
 

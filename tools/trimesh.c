@@ -7,7 +7,6 @@
 #include "hm_cli.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
-#include "hm_role.h"
 
 #include <errno.h>
 #include <math.h>
@@ -83,39 +82,13 @@ static void check_command(struct hm_cli *cli)
 
 /* --- terrain --- */
 
-/* Without points and grids: the heights of breaklines and regular meshes. */
-static void add_sparse_terrain(struct hm_cli *cli, const struct hm_inputs *in,
-                               struct hm_terrain *terrain)
-{
-    struct hm_diag d = {0};
-    struct hm_points p = {0};
-    hm_cli_check(cli, hm_header_init(&p.header, HM_POINTS, &d), &d);
-    for (size_t k = 0; k < in->nlines; k++)
-        for (size_t i = 0; i < in->lines[k].n; i++) {
-            const struct hm_line *line = &in->lines[k].line[i];
-            for (size_t j = 0; j < line->n && hm_role_of(line->attrs) == HM_ROLE_BREAKLINE; j++)
-                hm_cli_check(cli, hm_points_append(&p, line->xyz + 3 * j, &d), &d);
-        }
-    for (size_t k = 0; k < in->nmeshes; k++)
-        for (size_t i = 0; i < in->mesh[k].nnodes; i++)
-            hm_cli_check(cli, hm_points_append(&p, &in->mesh[k].node[i].x, &d), &d);
-    hm_cli_check(cli, hm_terrain_add_points(terrain, &p, 0, hm_cli_threads(cli), &d), &d);
-    hm_points_free(&p);
-}
-
-/* A grid was given for its heights, so it comes first; then the measurements. */
-static struct hm_terrain *make_terrain(struct hm_cli *cli, const struct hm_inputs *in)
+static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inputs *in)
 {
     struct hm_diag d = {0};
     struct hm_terrain *terrain;
-    hm_cli_check(cli, hm_terrain_new(&terrain, &d), &d);
-    for (size_t k = 0; k < in->ngrids; k++)
-        hm_cli_check(cli, hm_terrain_add_grid(terrain, &in->grid[k], &d), &d);
-    for (size_t k = 0; k < in->npoints; k++)
-        hm_cli_check(
-            cli, hm_terrain_add_points(terrain, &in->points[k], 0, hm_cli_threads(cli), &d), &d);
-    if (hm_terrain_is_empty(terrain))
-        add_sparse_terrain(cli, in, terrain);
+    struct hm_terrain_counts counts;
+    hm_cli_check(cli, hm_terrain_build(&terrain, in, 0, hm_cli_threads(cli), &counts, &d), &d);
+    hm_cli_mended_points(cli, counts.without_z, counts.duplicates);
     return terrain;
 }
 
@@ -123,7 +96,8 @@ static struct hm_terrain *make_terrain(struct hm_cli *cli, const struct hm_input
 
 static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
 {
-    hm_cli_mended(cli, c->duplicates, "%lld measurements at the place of another node left out",
+    hm_cli_mended(cli, c->duplicates,
+                  "%lld measurements at a node of a line or a regular mesh left out",
                   (long long)c->duplicates);
     hm_cli_mended(cli, c->crossings + c->on_lines + c->overlaps + c->zero_length,
                   "lines mended: %lld crossings, %lld nodes on a line, %lld pieces drawn twice, "
@@ -289,7 +263,7 @@ int main(int argc, char **argv)
     check_command(cli);
     hm_cli_read_all(cli, &in);
     make_header(cli, &in, &mesh.header);
-    struct hm_terrain *terrain = make_terrain(cli, &in);
+    struct hm_terrain *terrain = build_terrain(cli, &in);
     assemble(cli, &in, terrain, &dom);
     if (cmd.method == PAPER)
         bring_to_lengths(cli, &mesh.header, &dom);

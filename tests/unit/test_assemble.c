@@ -45,8 +45,9 @@ static void start(struct trial *c, int n)
         double x = 200 * uniform(), y = 100 * uniform();
         hm_points_append(&c->points, (double[3]){x, y, plane(x, y)}, NULL);
     }
-    hm_terrain_new(&c->terrain, NULL);
-    hm_terrain_add_points(c->terrain, &c->points, 0, 1, NULL);
+    struct hm_inputs in = {.points = &c->points, .npoints = 1};
+    struct hm_terrain_counts counts;
+    hm_terrain_build(&c->terrain, &in, 0, 1, &counts, NULL);
 }
 
 static void add_line(struct trial *c, const char *attrs, const double *xy, size_t n)

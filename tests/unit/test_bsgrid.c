@@ -5,7 +5,6 @@
 #include "hm_gapfill.h"
 #include "hm_gridtin.h"
 #include "hm_pred.h"
-#include "hm_terrain.h"
 #include "tap.h"
 
 #include <stdlib.h>
@@ -31,17 +30,34 @@ static void test_anchor(void)
     ok(hm_anchor_within(&a, 1, (const double[]){-1e300, 1e300, 0, 5}, NULL) == HM_EARG, "too many");
 }
 
-static bool is_on_edge(const struct hm_tri *t, double x, double y)
+/* What location says of (x, y): the height of the plane through the triangle's corners, solved by
+ * Cramer's rule; NaN outside and in a gap. On an edge, whichever of its two triangles tells. */
+static double locate(const struct hm_tin *tin, double x, double y, double gap, bool *on_edge)
 {
-    const double p[2] = {x, y};
-    int32_t tri = hm_tri_locate(t, x, y, NULL);
-    for (int32_t e = 3 * tri; tri >= 0 && e < 3 * tri + 3; e++)
-        if (!hm_pred_orient(hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e)), p))
-            return true;
-    return false;
+    const double at[2] = {x, y};
+    int32_t tri = hm_tri_locate(tin->tri, x, y, NULL);
+    *on_edge = false;
+    if (tri < 0)
+        return NAN;
+    const double *p[3];
+    double z[3];
+    bool wide = false;
+    for (int k = 0; k < 3; k++) {
+        p[k] = hm_tri_xy(tin->tri, hm_tri_org(tin->tri, 3 * tri + k));
+        z[k] = tin->z[hm_tri_org(tin->tri, 3 * tri + k)];
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *a = p[k], *b = p[(k + 1) % 3];
+        wide = wide || hypot(b[0] - a[0], b[1] - a[1]) > gap;
+        *on_edge = *on_edge || hm_pred_orient(a, b, at) == 0;
+    }
+    double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1], uz = z[1] - z[0];
+    double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1], vz = z[2] - z[0];
+    double det = ux * vy - uy * vx;
+    double dzdx = (uz * vy - uy * vz) / det, dzdy = (ux * vz - uz * vx) / det;
+    return wide ? NAN : z[0] + dzdx * (x - p[0][0]) + dzdy * (y - p[0][1]);
 }
 
-/* hm_terrain finds the triangle of each node by location, and interpolates in its own way. */
 static void test_gridtin(double x0, double y0, double gap)
 {
     enum { N = 3000, SIDE = 61 };
@@ -53,26 +69,21 @@ static void test_gridtin(double x0, double y0, double gap)
         xyz[3 * k + 1] = y0 + (on_lattice ? floor(y) : y);
         xyz[3 * k + 2] = 10 * uniform();
     }
-    struct hm_tri *t;
-    double *height;
-    struct hm_terrain *terrain;
+    struct hm_tin tin;
     struct hm_gridtin_count count;
     struct hm_anchor a = {1, (int64_t)x0, (int64_t)y0, SIDE, SIDE};
-    bool good =
-        !hm_tri_build(&t, xyz, N, 3, 1, NULL) && !hm_gridtin_heights(&height, t, xyz, N, NULL) &&
-        !hm_gridtin(z, &a, t, height, gap, 1, &count, NULL) &&
-        !hm_gridtin(again, &a, t, height, gap, 2, &count, NULL) &&
-        !hm_terrain_new(&terrain, NULL) && !hm_terrain_add_tri(terrain, t, height, gap, NULL);
+    bool good = !hm_tin_build(&tin, xyz, N, 1, NULL) &&
+                !hm_gridtin(z, &a, &tin, gap, 1, &count, NULL) &&
+                !hm_gridtin(again, &a, &tin, gap, 2, &count, NULL);
     ok(good && !memcmp(z, again, sizeof z), "one thread as two");
     double worst = 0;
     size_t missing = 0, differ = 0;
-    int32_t hint = 0;
     for (size_t k = 0; good && k < SIDE * SIDE; k++) {
-        double x = x0 + (double)(k % SIDE), y = y0 + (double)(k / SIDE);
-        double want = hm_terrain_z(terrain, x, y, &hint);
+        bool on_edge;
+        double want = locate(&tin, x0 + (double)(k % SIDE), y0 + (double)(k / SIDE), gap, &on_edge);
         missing += isnan(z[k]) != 0;
         /* a node between a gap and what is covered is covered, whichever triangle location finds */
-        if (isnan(z[k]) != isnan(want) && (isnan(z[k]) || !is_on_edge(t, x, y)))
+        if (isnan(z[k]) != isnan(want) && (isnan(z[k]) || !on_edge))
             differ++;
         if (!isnan(z[k]) && !isnan(want))
             worst = fmax(worst, fabs(z[k] - want));
@@ -81,23 +92,7 @@ static void test_gridtin(double x0, double y0, double gap)
     ok(differ == 0, "the same nodes missing (%zu, %zu differ)", missing, differ);
     ok(count.gap + count.outside == missing, "missing nodes: %zu in gaps, %zu outside", count.gap,
        count.outside);
-    hm_terrain_free(terrain);
-    hm_tri_free(t);
-    free(height);
-}
-
-static void test_shared_places(void)
-{
-    const double xyz[] = {0, 0, 1, 4, 0, 1, 0, 4, 1, 4, 4, 1, 0, 0, 2, 0, 0, 6, 4, 4, 3};
-    struct hm_tri *t;
-    double *height;
-    hm_tri_build(&t, xyz, 7, 3, 1, NULL);
-    hm_gridtin_heights(&height, t, xyz, 7, NULL);
-    ok(height[hm_tri_of_input(t, 0)] == 3 && height[hm_tri_of_input(t, 3)] == 2 &&
-           height[hm_tri_of_input(t, 1)] == 1,
-       "points at one place count by their mean");
-    hm_tri_free(t);
-    free(height);
+    hm_tin_free(&tin);
 }
 
 static void test_cellmean(void)
@@ -175,7 +170,6 @@ int main(void)
     test_gridtin(0, 0, 3);
     test_gridtin(545000, 5972000, 2.2);
     test_gridtin(-30, -30, 1e9);
-    test_shared_places();
     test_cellmean();
     test_gapfill();
     return done();

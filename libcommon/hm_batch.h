@@ -1,5 +1,5 @@
 /* hm_batch: the points of an object some thousands at a time, for those who do not hold them.
- * Layer 3, on the reader.
+ * Layer 5.
  *
  *     struct hm_batch b = {0};
  *     while (!(err = hm_batch_read(&b, r, &h, d)))   // until HM_END

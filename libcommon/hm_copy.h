@@ -1,4 +1,4 @@
-/* hm_copy: objects from a reader to writers as they come. Layer 4. Holds no object but a mesh. */
+/* hm_copy: objects from a reader to writers as they come. Layer 5. Holds no object but a mesh. */
 #ifndef HM_COPY_H
 #define HM_COPY_H
 

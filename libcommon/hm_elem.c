@@ -152,11 +152,6 @@ bool hm_elem_holds(const struct hm_mesh *m, const struct hm_elem *e, double px, 
     return !(left && right) && west && east && south && north;
 }
 
-static bool same_place(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 /* Does an edge of p (counter-clockwise) have all of q on its right, or on its line? Common nodes
  * are on it without asking: the exact predicate is slow where the answer is 0. */
 static bool separates(double p[4][2], int np, double q[4][2], int nq)
@@ -164,8 +159,8 @@ static bool separates(double p[4][2], int np, double q[4][2], int nq)
     for (int i = 0; i < np; i++) {
         const double *a = p[i], *b = p[(i + 1) % np];
         int j = 0;
-        while (j < nq &&
-               (same_place(a, q[j]) || same_place(b, q[j]) || hm_pred_orient(a, b, q[j]) <= 0))
+        while (j < nq && (hm_plane_same(a, q[j]) || hm_plane_same(b, q[j]) ||
+                          hm_pred_orient(a, b, q[j]) <= 0))
             j++;
         if (j == nq)
             return true;

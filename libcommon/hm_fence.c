@@ -1,7 +1,9 @@
 /* hm_fence: see hm_fence.h. */
 #include "hm_fence.h"
+
 #include "hm_attr.h"
 #include "hm_elem.h"
+#include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_pred.h"
 
@@ -406,11 +408,6 @@ struct joining {
     bool failed;
 };
 
-static bool same_place(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 static const double *nearer_end(const struct hm_segment *s, const double *p)
 {
     double to_a = hypot(s->a[0] - p[0], s->a[1] - p[1]);
@@ -421,8 +418,8 @@ static const double *nearer_end(const struct hm_segment *s, const double *p)
 static bool add_stop(void *arg, const struct hm_segment *s)
 {
     struct joining *j = arg;
-    if (same_place(j->p, s->a) || same_place(j->p, s->b) || same_place(j->q, s->a) ||
-        same_place(j->q, s->b))
+    if (hm_plane_same(j->p, s->a) || hm_plane_same(j->p, s->b) || hm_plane_same(j->q, s->a) ||
+        hm_plane_same(j->q, s->b))
         return true;
     int a = hm_pred_orient(j->p, j->q, s->a), b = hm_pred_orient(j->p, j->q, s->b);
     int p = hm_pred_orient(s->a, s->b, j->p), q = hm_pred_orient(s->a, s->b, j->q);
@@ -466,7 +463,7 @@ static enum hm_err join_one(const struct hm_fence *f, struct joining *j, struct 
     const double *from = j->p;
     for (size_t k = 0; k <= j->n; k++) {
         const double *to = k < j->n ? j->stop[k].xyz : j->q;
-        if (same_place(from, to))
+        if (hm_plane_same(from, to))
             continue;
         if (!hm_fence_is_inside(f, (from[0] + to[0]) / 2, (from[1] + to[1]) / 2)) {
             if (!hm_grow(out, cap, *n + 1, sizeof **out))
@@ -500,7 +497,7 @@ enum hm_err hm_fence_join(const struct hm_fence *f, const struct hm_line *ring, 
     for (size_t i = 0; !err && i < ring->n; i++) {
         j.p = xyz + 3 * i;
         j.q = xyz + 3 * ((i + 1) % ring->n);
-        if (!same_place(j.p, j.q))
+        if (!hm_plane_same(j.p, j.q))
             err = join_one(f, &j, out, n, &cap, d);
     }
     free(xyz);

@@ -1,22 +1,19 @@
 #include "hm_lineedit.h"
 
+#include "hm_plane.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool same_place(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
 
 void hm_lineedit_tidy(struct hm_line *line)
 {
     double *v = line->xyz;
     size_t n = 0;
     for (size_t k = 0; k < line->n; k++)
-        if (n == 0 || !same_place(v + 3 * (n - 1), v + 3 * k))
+        if (n == 0 || !hm_plane_same(v + 3 * (n - 1), v + 3 * k))
             memmove(v + 3 * n++, v + 3 * k, 3 * sizeof *v);
-    while (line->closed && n > 1 && same_place(v, v + 3 * (n - 1)))
+    while (line->closed && n > 1 && hm_plane_same(v, v + 3 * (n - 1)))
         n--;
     line->n = n;
     if (n < 3)

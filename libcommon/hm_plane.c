@@ -55,10 +55,10 @@ bool hm_plane_meet(const double *a, const double *b, const double *c, const doub
              (cd_a < 0 && cd_b < 0));
 }
 
-/* For p on the line through a and b: is it between them? */
-static bool is_between(const double *p, const double *a, const double *b)
+bool hm_plane_holds(const double *p, const double *a, const double *b)
 {
-    return intervals_meet(p, p, a, b, 0) && intervals_meet(p, p, a, b, 1);
+    return intervals_meet(p, p, a, b, 0) && intervals_meet(p, p, a, b, 1) &&
+           hm_pred_orient(a, b, p) == 0;
 }
 
 bool hm_plane_meet_at(const double *a, const double *b, const double *c, const double *d,
@@ -69,7 +69,7 @@ bool hm_plane_meet_at(const double *a, const double *b, const double *c, const d
     const double *end[4][3] = {{c, a, b}, {d, a, b}, {a, c, d}, {b, c, d}};
     for (int i = 0; i < 4; i++) { /* where one touches the other its end is exact */
         const double *p = end[i][0], *from = end[i][1], *to = end[i][2];
-        if (hm_pred_orient(from, to, p) == 0 && is_between(p, from, to)) {
+        if (hm_plane_holds(p, from, to)) {
             place[0] = p[0];
             place[1] = p[1];
             return true;

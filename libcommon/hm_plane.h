@@ -4,6 +4,14 @@
 
 #include "hm_base.h"
 
+static inline bool hm_plane_same(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+/* Does p lie on the segment a–b, exactly? Ends count. */
+bool hm_plane_holds(const double *p, const double *a, const double *b);
+
 /* The place on the segment a–b nearest to p, as a part of the way from a to b, 0 .. 1; 0 for a
  * segment of no length. */
 double hm_plane_foot(const double *p, const double *a, const double *b);

@@ -113,15 +113,10 @@ static enum hm_err make_cells(struct work *w, struct hm_diag *d)
     return HM_OK;
 }
 
-static bool same_place(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 /* In the triangle or on its border; its corners a and c do not count, b does. */
 static bool is_in_triangle(const double *p, const double *a, const double *b, const double *c)
 {
-    if (same_place(p, a) || same_place(p, c))
+    if (hm_plane_same(p, a) || hm_plane_same(p, c))
         return false;
     int x = hm_pred_orient(a, b, p), y = hm_pred_orient(b, c, p), z = hm_pred_orient(c, a, p);
     bool inside = (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);

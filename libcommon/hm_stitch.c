@@ -1,23 +1,16 @@
 #include "hm_stitch.h"
 
 #include "hm_cut.h"
-#include "hm_pred.h"
+#include "hm_plane.h"
 #include "hm_seam.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static bool same_place(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 /* Does p lie on the segment a–b, exactly, and not at an end? */
 static bool is_between(const double *p, const double *a, const double *b)
 {
-    const struct hm_box at = hm_box_of(p, p), box = hm_box_of(a, b);
-    return !same_place(p, a) && !same_place(p, b) && hm_box_meets(&at, &box) &&
-           hm_pred_orient(a, b, p) == 0;
+    return !hm_plane_same(p, a) && !hm_plane_same(p, b) && hm_plane_holds(p, a, b);
 }
 
 /* Do two borders fit where they touch, node for node, and have they an edge in common? */
@@ -32,7 +25,7 @@ static bool fit(const struct hm_border *x, const struct hm_border *y)
             if (is_between(a, c, d) || is_between(b, c, d) || is_between(c, a, b) ||
                 is_between(d, a, b))
                 return false;
-            common |= same_place(a, d) && same_place(b, c);
+            common |= hm_plane_same(a, d) && hm_plane_same(b, c);
         }
     }
     return common;

@@ -13,7 +13,7 @@
 static struct {
     const char *region; /* w/e/s/n, NULL: all there is */
     double size;        /* pixels */
-    int type, fill;     /* enum format, enum fill */
+    int type, fill;     /* enum format, enum mesh_fill */
     int levels;         /* of each colour channel */
     bool has_type, plain;
     const char *title, *band;
@@ -292,7 +292,7 @@ static void draw_layers(struct hm_cli *cli, struct page *page, const struct draw
         else if (layer->kind == HM_LINES)
             err = draw_lines(page, &layer->of.lines, &d);
         else
-            err = draw_mesh(page, &layer->of.mesh, (enum fill)cmd.fill, drawing->heights, &d);
+            err = draw_mesh(page, &layer->of.mesh, (enum mesh_fill)cmd.fill, drawing->heights, &d);
         hm_cli_check(cli, err, &d);
         hm_cli_progress(cli, "drawing", (double)(k + 1) / (double)drawing->n);
     }

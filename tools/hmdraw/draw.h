@@ -112,7 +112,7 @@ void draw_text(struct page *page, double x, double y, double size, const char *t
 
 /* --- the layers --- */
 
-enum fill { FILL_REGION, FILL_WIRE, FILL_Z, FILL_QUALITY };
+enum mesh_fill { FILL_REGION, FILL_WIRE, FILL_Z, FILL_QUALITY };
 
 /* The band drawn by height is shaded; others get colour alone. */
 enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, const char *name,
@@ -120,7 +120,7 @@ enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, c
 enum hm_err draw_points(struct page *page, const struct hm_points *p, struct range heights,
                         struct hm_diag *d);
 enum hm_err draw_lines(struct page *page, const struct hm_lines *l, struct hm_diag *d);
-enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill,
+enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill fill,
                       struct range heights, struct hm_diag *d);
 
 #endif

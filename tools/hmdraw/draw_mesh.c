@@ -52,7 +52,7 @@ static struct rgb angle_colour(int32_t class)
     return colour[class];
 }
 
-static int32_t class_of(const struct hm_mesh *m, const struct hm_elem *e, enum fill fill,
+static int32_t class_of(const struct hm_mesh *m, const struct hm_elem *e, enum mesh_fill fill,
                         struct range heights)
 {
     if (fill == FILL_Z) {
@@ -98,7 +98,7 @@ static bool is_visible(const struct view *v, const struct hm_mesh *m, const stru
     return w && east && s && n;
 }
 
-static struct rgb class_colour(int32_t class, enum fill fill)
+static struct rgb class_colour(int32_t class, enum mesh_fill fill)
 {
     if (fill == FILL_Z)
         return ramp_colour(RAMP_HEIGHT, class / (SHADES - 1.0));
@@ -109,7 +109,7 @@ static struct rgb class_colour(int32_t class, enum fill fill)
 
 /* Heights and qualities are opaque; what the parts are is a tint, through which the ground shows.
  */
-static double class_alpha(const struct page *page, int32_t class, enum fill fill)
+static double class_alpha(const struct page *page, int32_t class, enum mesh_fill fill)
 {
     if (fill != FILL_REGION)
         return 1;
@@ -120,7 +120,7 @@ static double class_alpha(const struct page *page, int32_t class, enum fill fill
 
 /* Returns how many elements of the class lie in the window. */
 static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,
-                          int32_t wanted, enum fill fill)
+                          int32_t wanted, enum mesh_fill fill)
 {
     set_colour(page, class_colour(wanted, fill), class_alpha(page, wanted, fill));
     int64_t count = 0;
@@ -136,7 +136,7 @@ static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int3
 }
 
 static void enter_class(struct page *page, const struct hm_mesh *m, int32_t class, int64_t count,
-                        enum fill fill, bool owned)
+                        enum mesh_fill fill, bool owned)
 {
     char name[NAME];
     struct rgb colour = class_colour(class, fill);
@@ -157,7 +157,7 @@ static void enter_class(struct page *page, const struct hm_mesh *m, int32_t clas
 
 /* Paint every class in turn, from the lowest, and enter it in the legend. */
 static void fill_elements(struct page *page, const struct hm_mesh *m, const int32_t *class,
-                          enum fill fill, bool owned)
+                          enum mesh_fill fill, bool owned)
 {
     int64_t last = -1;
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_NONE);
@@ -180,7 +180,8 @@ static void fill_elements(struct page *page, const struct hm_mesh *m, const int3
 
 enum stress { WIRE, SEAM, BORDER };
 
-static enum stress stress_of(const struct hm_mesh_edge *e, const int32_t *class, enum fill fill)
+static enum stress stress_of(const struct hm_mesh_edge *e, const int32_t *class,
+                             enum mesh_fill fill)
 {
     if (e->right < 0)
         return BORDER;
@@ -189,7 +190,7 @@ static enum stress stress_of(const struct hm_mesh_edge *e, const int32_t *class,
 
 static void stroke_edges(struct page *page, const struct hm_mesh *m,
                          const struct hm_mesh_edge *edges, size_t n, const int32_t *class,
-                         enum fill fill, enum stress stress)
+                         enum mesh_fill fill, enum stress stress)
 {
     const struct view *v = &page->view;
     int pending = 0;
@@ -220,7 +221,7 @@ static double mean_edge(const struct page *page, const struct hm_mesh *m,
 }
 
 static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const int32_t *class,
-                              enum fill fill, struct hm_diag *d)
+                              enum mesh_fill fill, struct hm_diag *d)
 {
     struct hm_mesh_edge *edges;
     size_t n;
@@ -253,7 +254,7 @@ static int64_t count_visible(const struct page *page, const struct hm_mesh *m)
     return count;
 }
 
-enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum fill fill,
+enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill fill,
                       struct range heights, struct hm_diag *d)
 {
     int32_t *class = hm_alloc(m->nelems, sizeof *class);

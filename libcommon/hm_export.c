@@ -2,6 +2,7 @@
 
 #include "hm_attr.h"
 #include "hm_num.h"
+#include "hm_strings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,29 +57,26 @@ static enum hm_err write_elements(const struct hm_mesh *m, int64_t nameless, str
     return err;
 }
 
-/* A node string `name n n …` of the header: NS cards of ten nodes, the last node negative and the
- * name behind it. */
-static enum hm_err write_string(const char *value, size_t nnodes, struct hm_writer *w,
-                                struct hm_diag *d)
+/* NS cards of ten nodes, the last node negative and the name behind it. */
+static enum hm_err write_string(const struct hm_string *s, struct hm_writer *w, struct hm_diag *d)
 {
-    size_t name = strcspn(value, " ");
-    const char *p = value + name, *end = value + strlen(value);
     enum hm_err err = HM_OK;
-    for (int64_t count = 0; *p && !err; count++) {
-        double node;
-        p = hm_num_parse(p + strspn(p, " "), end, &node);
-        if (!p || !(node >= 0 && node < (double)nnodes) || (*p && *p != ' '))
-            return hm_fail(d, HM_EFORMAT, "string %.*s: expected numbers of nodes", (int)name,
-                           value);
-        bool last = !*(p + strspn(p, " "));
-        err = hm_writer_printf(w, d, "%s%s%.0f",
-                               count % 10 ? " "
-                               : count    ? "\nNS "
-                                          : "NS ",
-                               last ? "-" : "", node + 1);
-        if (last)
-            return err ? err : hm_writer_printf(w, d, " %.*s\n", (int)name, value);
-    }
+    for (size_t k = 0; !err && k < s->n; k++)
+        err = hm_writer_printf(w, d, "%s%s%lld",
+                               k % 10 ? " "
+                               : k    ? "\nNS "
+                                      : "NS ",
+                               k + 1 == s->n ? "-" : "", (long long)s->node[k] + 1);
+    return err ? err : hm_writer_printf(w, d, " %s\n", s->name);
+}
+
+static enum hm_err write_strings(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d)
+{
+    struct hm_strings s = {0};
+    enum hm_err err = hm_strings_read(&s, m, d);
+    for (size_t i = 0; !err && i < s.n; i++)
+        err = write_string(&s.string[i], w, d);
+    hm_strings_free(&s);
     return err;
 }
 
@@ -104,9 +102,8 @@ enum hm_err hm_export_2dm(const struct hm_mesh *m, struct hm_writer *w, struct h
         err = write_nodes(m, w, d);
     if (!err)
         err = write_elements(m, largest + 1, w, d);
-    for (size_t k = 0; k < m->header.nkeys && !err; k++)
-        if (!strcmp(m->header.keys[k].name, "string"))
-            err = write_string(m->header.keys[k].value, m->nnodes, w, d);
+    if (!err)
+        err = write_strings(m, w, d);
     if (!err && nameless)
         err = hm_writer_printf(w, d, "BEG2DMBC\nMAT %lld \"region 0\"\nEND2DMBC\n",
                                (long long)largest + 1);

@@ -184,24 +184,22 @@ static void renumber(struct hm_mesh *m, const int32_t *order, struct hm_node *no
         m->elem[i] = ranked[i].elem;
 }
 
-enum hm_err hm_rcm_renumber(struct hm_mesh *m, struct hm_diag *d)
+enum hm_err hm_rcm_renumber(struct hm_mesh *m, int32_t *number, struct hm_diag *d)
 {
     struct graph g;
     enum hm_err err = graph_build(&g, m, d);
     if (err)
         return err;
     int32_t *order = hm_alloc(m->nnodes, sizeof *order);
-    int32_t *number = hm_alloc(m->nnodes, sizeof *number);
     struct hm_node *node = hm_alloc(m->nnodes, sizeof *node);
     struct ranked *ranked = hm_alloc(m->nelems, sizeof *ranked);
-    if (order && number && node && ranked) {
+    if (order && node && ranked) {
         find_order(&g, order);
         renumber(m, order, node, number, ranked);
     } else {
         err = hm_fail_memory(d);
     }
     free(order);
-    free(number);
     free(node);
     free(ranked);
     graph_free(&g);

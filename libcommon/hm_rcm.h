@@ -12,7 +12,8 @@
 /* The largest difference of two node numbers in an element. */
 int64_t hm_rcm_bandwidth(const struct hm_mesh *m);
 
-/* Renumber the nodes, and sort the elements by their lowest node. Nothing else changes. */
-enum hm_err hm_rcm_renumber(struct hm_mesh *m, struct hm_diag *d);
+/* Renumber the nodes, and sort the elements by their lowest node. Nothing else changes: not the
+ * header either, whose strings have the old numbers. number[k] becomes the new number of node k. */
+enum hm_err hm_rcm_renumber(struct hm_mesh *m, int32_t *number, struct hm_diag *d);
 
 #endif

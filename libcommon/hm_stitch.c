@@ -68,12 +68,9 @@ static enum hm_err add_gap(struct hm_join *j, const struct hm_seam *seam,
 }
 
 static enum hm_err sew(struct hm_join *j, const struct hm_mesh *lower, const struct hm_cut *cut,
-                       const struct hm_seam *seam, const struct hm_terrain *terrain,
+                       const struct hm_seam *seam, const struct hm_terrain *terrain, int32_t *map,
                        struct hm_stitched *s, struct hm_diag *d)
 {
-    int32_t *map = hm_alloc(lower->nnodes, sizeof *map);
-    if (!map)
-        return hm_fail_memory(d);
     size_t before = j->mesh.nelems;
     enum hm_err err = hm_join_mesh(j, lower, cut ? cut->gone : NULL, 0, map, &s->joined, d);
     s->kept = (int64_t)(j->mesh.nelems - before);
@@ -81,7 +78,6 @@ static enum hm_err sew(struct hm_join *j, const struct hm_mesh *lower, const str
         err = add_gap(j, seam, lower, terrain, map, &s->reused, d);
     s->filled = (int64_t)seam->n;
     s->widened = seam->widened;
-    free(map);
     return err;
 }
 
@@ -134,7 +130,7 @@ static enum hm_err fill(struct hm_seam *seam, const struct pair *p, struct hm_cu
 }
 
 enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, double buffer,
-                              const struct hm_terrain *terrain, struct hm_stitched *s,
+                              const struct hm_terrain *terrain, int32_t *map, struct hm_stitched *s,
                               struct hm_diag *d)
 {
     struct pair p = {0};
@@ -153,7 +149,7 @@ enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, do
         s->loose = cut.loose;
     }
     if (!err)
-        err = sew(j, lower, whole ? NULL : &cut, &seam, terrain, s, d);
+        err = sew(j, lower, whole ? NULL : &cut, &seam, terrain, map, s, d);
     close_pair(&p);
     hm_cut_free(&cut);
     hm_seam_free(&seam);

@@ -20,9 +20,10 @@ struct hm_stitched {
  * (hm_meshcheck). Where it overlaps or touches what is there it is cut back by the buffer (metres;
  * negative: suited to the elements, hm_cut), and the gap is filled. A mesh that lies beside what is
  * there, with nodes in common, is joined by them, and one apart is added as it is. Nodes inside the
- * gap take their height from the terrain (may be NULL) where it knows one, else from `lower`. */
+ * gap take their height from the terrain (may be NULL) where it knows one, else from `lower`.
+ * map gets the new number of each node of `lower`, or -1. */
 enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, double buffer,
-                              const struct hm_terrain *terrain, struct hm_stitched *stitched,
-                              struct hm_diag *d);
+                              const struct hm_terrain *terrain, int32_t *map,
+                              struct hm_stitched *stitched, struct hm_diag *d);
 
 #endif

@@ -214,6 +214,127 @@ nodes mixed.hm >a && nodes out.hm >b
 same "and the nodes" a b
 ok "bandwidth before and after is said: $(cat said)" awk '/bandwidth/ { exit !($3 + 0 <= 24 && $5 > 100) }' said
 
+# --- strings and materials ---
+
+# lines BODY: a stream of lines; string NAME FILE: the places of the nodes of a string
+lines() { printf '#hm 1 lines text\n#data\n%s\n#end\n' "$1"; }
+string() {
+    awk -v name="$1" '/^v/ { p[n++ + 0] = $2 "," $3 } $1 == "#string" && $2 == name { k = split($0, node) }
+        END { for (i = 3; i <= k; i++) printf "%s%s", (i > 3 ? " " : ""), p[node[i]] }' "$2"
+}
+# runs NAME STRING PLACES [FILE]: the string has nodes at just these places
+runs() {
+    [ "$(string "$2" "${4:-out.hm}")" = "$3" ]
+    report $? "$1: $(string "$2" "${4:-out.hm}")"
+}
+channel s 0 0 40 0 12 10 4 >s.hm
+channel onto 40 0 80 0 12 10 4 >onto.hm
+down='0,6 0,2 0,-2 0,-6'
+lines '> string=inflow
+0.5 7 0
+-0.5 -6.5 0
+> string=around
+11 -6 0
+0 -6 0
+0 1.5 0
+> string=outflow
+40 6 0
+40 -6 0' >strings.txt
+stitch s.hm strings.txt >out.hm 2>said
+runs "a string is the boundary nearest to a line, in its direction" inflow "$down"
+runs "around a corner" around "10,-6 0,-6 0,-2 0,2"
+ok "how many edges is said" grep -q 'string inflow: 3 edges' said
+stitch -r out.hm >turned.hm 2>/dev/null
+runs "strings are renumbered with the nodes" inflow "$down" turned.hm
+stitch onto.hm out.hm >two.hm 2>said
+runs "and when their mesh is joined to another" inflow "$down" two.hm
+ok "one that is inside then is dropped, aloud" grep -q "1 strings.*no longer.*'outflow'" said
+true_that "and only that" "$(grep -c '^#string' two.hm) == 2 && $(grep -c outflow two.hm) == 0"
+must_fail "--strict makes it exit 1" 1 "outflow" stitch --strict onto.hm out.hm
+lines '> string=inflow
+0 -6 0
+0 6 0' >again.txt
+stitch two.hm again.txt >three.hm 2>/dev/null
+runs "a line replaces the string of its name" inflow "0,-6 0,-2 0,2 0,6" three.hm
+true_that "there is one of it" "$(grep -c '^#string inflow' three.hm) == 1"
+ok "2dm has them" sh -c 'hmconv -t 2dm three.hm | grep -q "^NS .* inflow$"'
+hmconv -t 2dm three.hm 2>/dev/null >three.2dm
+stitch three.2dm 2>/dev/null >three.hm
+runs "and gives them back" inflow "0,-6 0,-2 0,2 0,6" three.hm
+awk '/^[tq]/ { x = 0; for (i = 2; i < 5; i++) x += p[$i] / 3; if (x > 10 && x < 30 && y[$2] > -3 && y[$2] < 3 && y[$3] > -3 && y[$3] < 3 && y[$4] > -3 && y[$4] < 3) next }
+    /^v/ { p[n + 0] = $2; y[n++] = $3 } { print }' s.hm >ring.hm
+lines '> string=island
+11 2.2 0
+29 1.8 0' >island.txt
+stitch ring.hm island.txt >out.hm 2>/dev/null
+runs "along an island" island "10,2 20,2 30,2"
+refuse() { # NAME PATTERN LINES
+    lines "$3" >bad.txt
+    must_fail "$1" 2 "$2" stitch s.hm bad.txt
+}
+refuse "a string across the mesh" 'string=mid does not run along the boundary.* 20 m apart.* at ' '> string=mid
+20 6 0
+20 -6 0'
+refuse "one beside it" 'string=far does not run along.* 15 m apart.* at ' '> string=far
+-15 6 0
+-15 -6 0'
+lines '> string=far tolerance=16
+-15 6 0
+-15 -6 0' >far.txt
+stitch s.hm far.txt >out.hm 2>/dev/null
+runs "unless its tolerance= allows it" far "$down"
+refuse "an inflow of one edge" 'string=inflow_2 is 1 edges .*needs 2 at 0 6' '> string=inflow_2
+0 6 0
+0 2 0'
+refuse "a string without an edge" 'string=x is 0 edges' '> string=x
+0 6 0
+0 5.5 0'
+refuse "a closed string" 'string=x is closed' '> string=x closed=1
+0 6 0
+0 2 0
+5 2 0'
+refuse "a string of one point" 'string=x is only one point' '> string=x
+0 6 0'
+refuse "a string without name" 'name of a string' '> string=""
+0 6 0
+0 -6 0'
+refuse "a tolerance that is none" 'tolerance' '> string=x tolerance=wide
+0 6 0
+0 -6 0'
+sed 's/^#role/#string broken 1 x\n#role/' s.hm >broken.hm
+must_fail "a string that is no list of nodes" 2 'string broken: expected numbers' stitch broken.hm
+
+lines '> region=7 closed=1
+-1 -10 0
+20 -10 0
+20 10 0
+-1 10 0
+> region=9
+10 -10 0
+15 -10 0
+15 10 0
+10 10 0
+10 -10 0' >regions.txt
+stitch s.hm regions.txt >out.hm 2>said
+true_that "materials by closed lines, the last one wins" "\"$(awk '/^t/ { n[$5]++ } END { print n[7], n[9], n[0] }' out.hm)\" == \"9 3 12\""
+ok "how many elements is said" grep -q 'region 9: given to 3 elements' said
+refuse "an open region" 'region=2 is not closed.* at 0 0' '> region=2
+0 0 0
+9 0 0
+9 9 0'
+refuse "a region of two points" 'region=2 has only 2 points' '> region=2 closed=1
+0 0 0
+9 0 0'
+refuse "a region that crosses itself" 'region=2 crosses itself' '> region=2 closed=1
+0 0 0
+9 9 0
+9 0 0
+0 9 0'
+refuse "a region that is no number" 'region=1.5 is not a material' '> region=1.5 closed=1
+0 0 0
+9 0 0
+9 9 0'
+
 # --- what is checked, and bad input ---
 sed 's/^t 0 1 31 0/t 1 0 31 0/' main.hm >clockwise.hm
 must_fail "a clockwise element is refused, with its place" 2 'area.*at|twice.*at' stitch clockwise.hm

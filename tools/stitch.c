@@ -2,10 +2,12 @@
  * is filled; the others are joined to them by their common nodes. */
 #include "hm_cli.h"
 #include "hm_elem.h"
+#include "hm_material.h"
 #include "hm_meshcheck.h"
 #include "hm_owners.h"
 #include "hm_rcm.h"
 #include "hm_stitch.h"
+#include "hm_strings.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -46,10 +48,10 @@ static const struct hm_option options[] = {
 
 static const struct hm_program program = {
     .name = "stitch",
-    .purpose = "meshes, in order of priority → one conforming mesh",
+    .purpose = "meshes, in order of priority, and lines with string= or region= → one mesh",
     .operands = "[file ...]",
     .options = options,
-    .needs = HM_MESH | HM_POINTS | HM_GRID,
+    .needs = HM_MESH | HM_POINTS | HM_GRID | HM_LINES,
     .without = "p", /* a mesh is written exactly */
 };
 
@@ -122,26 +124,26 @@ static void tell_stitched(struct hm_cli *cli, const char *name, const struct hm_
 }
 
 static void add_regular(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m,
-                        const struct hm_terrain *terrain)
+                        const struct hm_terrain *terrain, int32_t *map)
 {
     struct hm_diag d = {0};
     struct hm_stitched s;
     bool first = j->mesh.nelems == 0;
-    enum hm_err err = hm_stitch_regular(j, m, cmd.has_buffer ? cmd.buffer : -1, terrain, &s, &d);
-    hm_cli_check(cli, err, &d);
+    double buffer = cmd.has_buffer ? cmd.buffer : -1;
+    hm_cli_check(cli, hm_stitch_regular(j, m, buffer, terrain, map, &s, &d), &d);
     hm_cli_mended(cli, s.joined.unused, "%s: %lld nodes without an element were left out",
                   name_of(m), (long long)s.joined.unused);
     if (!first)
         tell_stitched(cli, name_of(m), &s);
 }
 
-static void add_other(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m)
+static void add_other(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m, int32_t *map)
 {
     struct hm_diag d = {0};
     struct hm_joined joined = {0};
     bool first = j->mesh.nelems == 0, foreign = !*role_of(m);
     double tolerance = cmd.has_tolerance ? cmd.tolerance : foreign ? foreign_tolerance : 0;
-    hm_cli_check(cli, hm_join_mesh(j, m, NULL, tolerance, NULL, &joined, &d), &d);
+    hm_cli_check(cli, hm_join_mesh(j, m, NULL, tolerance, map, &joined, &d), &d);
     hm_cli_mended(cli, joined.unused, "%s: %lld nodes without an element were left out", name_of(m),
                   (long long)joined.unused);
     if (!first)
@@ -150,19 +152,32 @@ static void add_other(struct hm_cli *cli, struct hm_join *j, const struct hm_mes
                   name_of(m), (long long)joined.matched, tolerance, joined.furthest);
 }
 
+static void add_mesh(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m,
+                     const struct hm_terrain *terrain, struct hm_strings *strings)
+{
+    struct hm_diag d = {0};
+    size_t before = strings->n;
+    int32_t *map = hm_alloc(m->nnodes, sizeof *map);
+    if (!map)
+        hm_cli_die(cli, "out of memory");
+    if (is_regular(m))
+        add_regular(cli, j, m, terrain, map);
+    else
+        add_other(cli, j, m, map);
+    hm_cli_check(cli, hm_strings_read(strings, m, &d), &d);
+    hm_strings_renumber(strings, before, map);
+    free(map);
+}
+
 /* Regular meshes first, whatever their place: the others were made around them. */
-static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_join *j)
+static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_join *j,
+                     struct hm_strings *strings)
 {
     struct hm_terrain *terrain = build_terrain(cli, in);
     for (int regular = 1; regular >= 0; regular--)
         for (size_t i = 0; i < in->nmeshes; i++) {
-            const struct hm_mesh *m = &in->mesh[i];
-            if (is_regular(m) != regular)
-                continue;
-            if (regular)
-                add_regular(cli, j, m, terrain);
-            else
-                add_other(cli, j, m);
+            if (is_regular(&in->mesh[i]) == regular)
+                add_mesh(cli, j, &in->mesh[i], terrain, strings);
         }
     hm_terrain_free(terrain);
 }
@@ -197,16 +212,56 @@ static void check_result(struct hm_cli *cli, const struct hm_mesh *m, const stru
     hm_cli_check(cli, hm_meshcheck_verdict(&c, cmd.components, &d), &d);
 }
 
-static void renumber(struct hm_cli *cli, struct hm_mesh *m)
+/* Materials inside closed lines with region=N. */
+static void give_materials(struct hm_cli *cli, const struct hm_inputs *in, struct hm_mesh *m)
+{
+    struct hm_diag d = {0};
+    struct hm_material *list;
+    size_t n;
+    hm_cli_check(cli, hm_material_collect(in->lines, in->nlines, &list, &n, &d), &d);
+    hm_material_apply(m, list, n);
+    for (size_t i = 0; i < n; i++)
+        hm_cli_say(cli, "region %d: given to %lld elements", list[i].region,
+                   (long long)list[i].elements);
+    free(list);
+}
+
+/* The strings that are still whole, and those that lines with string=NAME ask for. */
+static void find_strings(struct hm_cli *cli, const struct hm_inputs *in, const struct hm_mesh *m,
+                         struct hm_strings *strings)
+{
+    struct hm_diag d = {0};
+    int64_t dropped = 0;
+    char *name = NULL;
+    if (strings->n > 0)
+        hm_cli_check(cli, hm_strings_drop_broken(strings, m, &dropped, &name, &d), &d);
+    hm_cli_mended(cli, dropped,
+                  "%lld strings that no longer run along the boundary are dropped, first '%s'",
+                  (long long)dropped, name ? name : "");
+    free(name);
+    size_t kept = strings->n;
+    if (in->nlines > 0)
+        hm_cli_check(cli, hm_strings_find(strings, m, in->lines, in->nlines, &kept, &d), &d);
+    for (size_t i = kept; i < strings->n; i++)
+        hm_cli_say(cli, "string %s: %zu edges of the boundary", strings->string[i].name,
+                   strings->string[i].n - 1);
+}
+
+static void renumber(struct hm_cli *cli, struct hm_mesh *m, struct hm_strings *strings)
 {
     struct hm_diag d = {0};
     int64_t before = hm_rcm_bandwidth(m);
-    hm_cli_check(cli, hm_rcm_renumber(m, &d), &d);
+    int32_t *number = hm_alloc(m->nnodes, sizeof *number);
+    if (!number)
+        hm_cli_die(cli, "out of memory");
+    hm_cli_check(cli, hm_rcm_renumber(m, number, &d), &d);
+    hm_strings_renumber(strings, 0, number);
+    free(number);
     hm_cli_say(cli, "bandwidth %lld, was %lld", (long long)hm_rcm_bandwidth(m), (long long)before);
 }
 
 static void write_mesh(struct hm_cli *cli, struct hm_mesh *m, const struct hm_inputs *in,
-                       const char *owners)
+                       const char *owners, const struct hm_strings *strings)
 {
     struct hm_diag d = {0};
     bool regular = true;
@@ -218,6 +273,7 @@ static void write_mesh(struct hm_cli *cli, struct hm_mesh *m, const struct hm_in
     hm_cli_check(cli, hm_header_set(&m->header, "role", regular ? "regular" : "hybrid", &d), &d);
     hm_cli_check(cli, hm_header_set(&m->header, "owners", *owners ? owners : NULL, &d), &d);
     hm_cli_make_header(cli, &m->header);
+    hm_cli_check(cli, hm_strings_write(strings, &m->header, &d), &d);
     hm_cli_check(cli, hm_mesh_write(m, hm_cli_writer(cli), &d), &d);
 }
 
@@ -237,6 +293,7 @@ int main(int argc, char **argv)
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct hm_inputs in = {0};
     struct hm_join join = {0};
+    struct hm_strings strings = {0};
     char *owners;
     struct hm_diag d = {0};
     check_options(cli);
@@ -245,12 +302,15 @@ int main(int argc, char **argv)
         hm_cli_die(cli, "no mesh among the operands");
     check_inputs(cli, &in);
     hm_cli_check(cli, hm_owners_join(in.mesh, in.nmeshes, &owners, &d), &d);
-    join_all(cli, &in, &join);
+    join_all(cli, &in, &join, &strings);
     check_result(cli, &join.mesh, &in);
     hm_cli_check(cli, hm_join_flag_boundary(&join.mesh, &d), &d);
+    give_materials(cli, &in, &join.mesh);
+    find_strings(cli, &in, &join.mesh, &strings);
     if (cmd.renumber)
-        renumber(cli, &join.mesh);
-    write_mesh(cli, &join.mesh, &in, owners);
+        renumber(cli, &join.mesh, &strings);
+    write_mesh(cli, &join.mesh, &in, owners, &strings);
+    hm_strings_free(&strings);
     hm_join_free(&join);
     free(owners);
     hm_inputs_free(&in);

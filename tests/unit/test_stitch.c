@@ -109,9 +109,10 @@ static void owners(void)
 static void renumbering(void)
 {
     struct hm_mesh m = {0};
+    int32_t number[164];
     lattice(&m, 0, 40, 40, 0, 3, 3, true); /* numbered along: 42 apart */
     int64_t before = hm_rcm_bandwidth(&m);
-    ok(hm_rcm_renumber(&m, NULL) == HM_OK && before == 42 && hm_rcm_bandwidth(&m) <= 8,
+    ok(hm_rcm_renumber(&m, number, NULL) == HM_OK && before == 42 && hm_rcm_bandwidth(&m) <= 8,
        "a strip gets a bandwidth near its width");
     bool plane = true, used[164] = {0};
     for (size_t i = 0; i < m.nnodes; i++) {
@@ -121,11 +122,12 @@ static void renumbering(void)
     for (int i = 0; i < 164; i++)
         plane = plane && used[i];
     ok(plane, "all nodes are there, each with its height");
+    ok(m.node[number[43]].x == 2 && m.node[number[43]].y == 1, "it is said which is which");
     empty(&m);
     lattice(&m, 0, 2, 2, 0, 2, 2, false);
     lattice(&m, 5, 7, 2, 0, 2, 2, false);
     node(&m, 9, 9, 0);
-    ok(hm_rcm_renumber(&m, NULL) == HM_OK && hm_rcm_bandwidth(&m) <= 5,
+    ok(hm_rcm_renumber(&m, number, NULL) == HM_OK && hm_rcm_bandwidth(&m) <= 5,
        "several pieces, and a node alone");
     empty(&m);
 }

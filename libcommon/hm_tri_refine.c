@@ -30,9 +30,10 @@ struct refine {
     double off;  /* the farthest off-centre, in lengths of the edge */
 };
 
+/* Ghosts are outside by region. */
 static bool is_inside(const struct refine *r, int32_t tri)
 {
-    return hm_tri_is_solid(r->t, tri) && hm_tri_region(r->t, tri) != r->q->outside;
+    return r->t->region[tri] != r->q->outside && r->t->half[3 * tri].org != HM_TRI_FREE;
 }
 
 static double dot_at(const double *o, const double *a, const double *b)
@@ -68,7 +69,7 @@ static enum hm_err push_segment(struct refine *r, int32_t e)
 /* Queue a constraint that has a vertex too near. */
 static enum hm_err check_segment(struct refine *r, int32_t e)
 {
-    if (!hm_tri_marks_of(r->t, e))
+    if (!r->t->marks[e])
         return HM_OK;
     for (int side = 0; side < 2; side++, e = r->t->half[e].twin)
         if (is_inside(r, e / 3) && encroaches(r, e, hm_tri_at(r->t, hm_tri_apex_of(r->t, e))))
@@ -116,36 +117,28 @@ static double largest_area(const struct refine *r, const double *a, const double
     return bound;
 }
 
-/* The shortest edge of a triangle. */
-static int32_t shortest_edge(const struct hm_tri *t, int32_t tri, double *least)
-{
-    int32_t shortest = HM_TRI_NONE;
-    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++) {
-        double length = length2(hm_tri_at(t, t->half[e].org), hm_tri_at(t, hm_tri_dest_of(t, e)));
-        if (shortest == HM_TRI_NONE || length < *least) {
-            *least = length;
-            shortest = e;
-        }
-    }
-    return shortest;
-}
-
 struct verdict {
     int32_t shortest; /* edge; the smallest angle is opposite */
-    double length2;
+    double length2;   /* its length squared */
+    double cos2;      /* square of the cosine of that angle */
     bool small, large;
 };
 
 static struct verdict judge(const struct refine *r, int32_t tri)
 {
-    struct verdict is = {.small = false};
-    is.shortest = shortest_edge(r->t, tri, &is.length2);
-    const double *a = hm_tri_at(r->t, r->t->half[is.shortest].org);
-    const double *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, is.shortest));
-    const double *c = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
-    double dot = dot_at(c, a, b);
-    is.small = dot * dot > r->cos2 * length2(c, a) * length2(c, b);
-    is.large = hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
+    const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    const double *p[3];
+    for (int i = 0; i < 3; i++)
+        p[i] = hm_tri_at(r->t, h[i].org);
+    double length[3] = {length2(p[0], p[1]), length2(p[1], p[2]), length2(p[2], p[0])};
+    int least = length[1] < length[0] ? 1 : 0;
+    least = length[2] < length[least] ? 2 : least;
+    double one = length[(least + 1) % 3], other = length[(least + 2) % 3];
+    double dot = (one + other - length[least]) / 2;
+    struct verdict is = {.shortest = 3 * tri + least, .length2 = length[least]};
+    is.cos2 = dot * dot / (one * other);
+    is.small = is.cos2 > r->cos2;
+    is.large = hm_area2(p[0], p[1], p[2]) > 2 * largest_area(r, p[0], p[1], p[2], tri);
     return is;
 }
 
@@ -373,10 +366,11 @@ enum { TRIES = 64 }; /* of a triangle whose place is taken by constraints, which
 
 static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
 {
-    double p[2], length;
+    double p[2];
     int32_t tri = work->tri, v;
     size_t before = r->n_split;
-    off_centre(r, shortest_edge(r->t, tri, &length), p);
+    struct verdict is = judge(r, tri);
+    off_centre(r, is.shortest, p);
     if (!isfinite(p[0]) || !isfinite(p[1]))
         return HM_OK;
     int32_t block = walk(r, p, &tri);
@@ -388,7 +382,8 @@ static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
     else
         err = check_place(r, p, tri);
     if (!err && r->n_split > before) /* again, when they are split */
-        return work->tries++ < TRIES ? hm_tri_worklist_push(&r->bad, *work, length, r->d) : HM_OK;
+        return work->tries++ < TRIES ? hm_tri_worklist_push(&r->bad, *work, is.length2, r->d)
+                                     : HM_OK;
     if (!err)
         err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
     if (!err)
@@ -448,16 +443,13 @@ static void report(struct refine *r)
         if (!is_inside(r, k))
             continue;
         struct verdict is = judge(r, k);
-        const double *a = hm_tri_at(r->t, r->t->half[is.shortest].org);
-        const double *b = hm_tri_at(r->t, hm_tri_dest_of(r->t, is.shortest));
-        const double *c = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
-        double dot = dot_at(c, a, b), here = dot * dot / (length2(c, a) * length2(c, b));
         r->done->small += is.small;
         r->done->large += is.large;
-        if (here > cos2) {
-            cos2 = here;
-            r->done->x = c[0];
-            r->done->y = c[1];
+        if (is.cos2 > cos2) {
+            const double *apex = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
+            cos2 = is.cos2;
+            r->done->x = apex[0];
+            r->done->y = apex[1];
         }
     }
     r->done->smallest = acos(sqrt(fmin(cos2, 1))) * 180 / acos(-1);

@@ -151,7 +151,7 @@ static enum hm_err check_triangle(struct refine *r, int32_t tri)
         return HM_OK;
     const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
     return hm_tri_worklist_push(
-        &r->bad, (struct hm_tri_work){tri, {h[0].org, h[1].org, h[2].org}, 0}, is.length2, r->d);
+        &r->bad, (struct hm_tri_work){tri, {h[0].org, h[1].org, h[2].org}, -1}, is.length2, r->d);
 }
 
 /* Look at all triangles and constraints around a vertex. */
@@ -298,8 +298,8 @@ static void off_centre(const struct refine *r, int32_t e, double *p)
 
 enum { FAR = 10000 }; /* steps of a walk: more are a walk in circles */
 
-/* Walk to p; *tri becomes the triangle that holds it. A constraint on the way, or under p, is
- * returned. */
+/* Walk to p; *tri becomes the triangle that holds it, or none. A constraint on the way, or under p,
+ * is returned. */
 static int32_t walk(const struct refine *r, const double *p, int32_t *tri)
 {
     const struct hm_tri *t = r->t;
@@ -317,6 +317,7 @@ static int32_t walk(const struct refine *r, const double *p, int32_t *tri)
         from = t->half[cross].twin;
         *tri = from / 3;
     }
+    *tri = HM_TRI_NONE;
     return HM_TRI_NONE;
 }
 
@@ -362,8 +363,6 @@ static bool is_corner(const struct hm_tri *t, int32_t tri, const double *p)
     return false;
 }
 
-enum { TRIES = 64 }; /* of a triangle whose place is taken by constraints, which may be too short */
-
 static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
 {
     double p[2];
@@ -377,13 +376,15 @@ static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
     enum hm_err err = HM_OK;
     if (block != HM_TRI_NONE)
         err = push_segment(r, block);
-    else if (is_corner(r->t, tri, p))
+    else if (tri == HM_TRI_NONE || is_corner(r->t, tri, p))
         return HM_OK; /* smaller than doubles can tell */
     else
         err = check_place(r, p, tri);
-    if (!err && r->n_split > before) /* again, when they are split */
-        return work->tries++ < TRIES ? hm_tri_worklist_push(&r->bad, *work, is.length2, r->d)
-                                     : HM_OK;
+    if (!err && r->n_split > before) { /* again when they are split, if they can be */
+        bool again = work->added != r->added;
+        work->added = r->added;
+        return again ? hm_tri_worklist_push(&r->bad, *work, is.length2, r->d) : HM_OK;
+    }
     if (!err)
         err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
     if (!err)

@@ -12,7 +12,7 @@
 /* A triangle by number and corners; it is gone when the number has others. */
 struct hm_tri_work {
     int32_t tri, v[3];
-    int32_t tries; /* in vain until now */
+    int64_t added; /* vertices when it was tried last; -1: never */
 };
 
 enum {

@@ -10,12 +10,16 @@ CFLAGS     ?= -O2 -g
 
 # The seven programs of the scheme need libc, libm and threads, nothing else.
 SCHEME     := bsgrid slope breaklines bsmesh trimesh stitch quality
-COMPANIONS := hmconv hmdraw
+COMPANIONS := georef hmconv hmdraw
 
-# hmdraw draws with cairo; without it all other programs are built.
+# hmdraw draws with cairo, georef computes with GeographicLib, which is C++; without them all other
+# programs are built.
 CAIRO_CFLAGS := $(shell pkg-config --cflags cairo 2>/dev/null)
 CAIRO_LIBS   := $(shell pkg-config --libs cairo 2>/dev/null)
-PROGRAMS     := $(SCHEME) $(if $(CAIRO_LIBS),$(COMPANIONS),$(filter-out hmdraw,$(COMPANIONS)))
+GEOD_CFLAGS  := $(shell pkg-config --cflags geographiclib 2>/dev/null)
+GEOD_LIBS    := $(if $(shell command -v $(CXX)),$(shell pkg-config --libs geographiclib 2>/dev/null))
+MISSING      := $(if $(CAIRO_LIBS),,hmdraw) $(if $(GEOD_LIBS),,georef)
+PROGRAMS     := $(SCHEME) $(filter-out $(MISSING),$(COMPANIONS))
 
 B := build$(if $(SANITIZE),/san)
 Q := $(if $(V),,@)
@@ -25,6 +29,9 @@ WARN   := -Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes
 SANFLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 HM_CFLAGS  = -std=c11 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -ffp-contract=off -pthread \
              $(WARN) $(SANFLAGS) -Ilibcommon -MMD -MP $(CFLAGS)
+CXXFLAGS ?= -O2 -g
+HM_CXXFLAGS = -std=c++17 -D_FILE_OFFSET_BITS=64 -ffp-contract=off -pthread -Wall -Wextra -Wshadow \
+             -Wconversion $(SANFLAGS) -Ilibcommon $(GEOD_CFLAGS) -MMD -MP $(CXXFLAGS)
 HM_LDFLAGS = -pthread $(SANFLAGS) $(LDFLAGS)
 
 LIB       := $(B)/libhm.a
@@ -42,6 +49,7 @@ SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] too
 
 all: $(BIN)
 	$(Q)$(if $(CAIRO_LIBS),:,echo "hmdraw is not built: it needs cairo (make deps installs it)")
+	$(Q)$(if $(GEOD_LIBS),:,echo "georef is not built: it needs g++ and GeographicLib (make deps installs them)")
 
 help:
 	@sed -n 's/^#: //p' Makefile
@@ -67,10 +75,18 @@ $(LIB): $(LIB_OBJ)
 	$(if $(Q),@echo "  AR      $@")
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
+# The one file in C++, linked to georef alone: libhm.a is free of it.
+$(B)/obj/hm_geod.o: libcommon/hm_geod.cpp
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  CXX     $<")
+	$(Q)$(CXX) $(HM_CXXFLAGS) -c -o $@ $<
+
 # A program too long for one file has its other files in a folder of its name.
 .SECONDEXPANSION:
 $(B)/bin/hmdraw: EXTRA_CFLAGS = $(CAIRO_CFLAGS)
 $(B)/bin/hmdraw: EXTRA_LIBS = $(CAIRO_LIBS)
+$(B)/bin/georef: $(B)/obj/hm_geod.o
+$(B)/bin/georef: EXTRA_LIBS = $(B)/obj/hm_geod.o $(GEOD_LIBS) -lstdc++
 $(B)/bin/%: tools/%.c $$(wildcard tools/$$*/*.[ch]) $(LIB)
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "  LD      $@")

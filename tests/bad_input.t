@@ -24,13 +24,14 @@ operands() {
     bsmesh) echo "-c 15/6 -e 12/5 lines.txt @ survey.xyz" ;;
     trimesh) echo "-l 6 -L 20 lines.txt @" ;;
     quality) echo "@ survey.xyz" ;;
+    georef) echo "-i -z 32N @" ;;
     esac
 }
 
 # What of the chain a tool reads there.
 good_input() {
     case $1 in
-    bsgrid | trimesh) echo survey.hm ;;
+    bsgrid | trimesh | georef) echo survey.hm ;;
     slope) echo dem.hm ;;
     breaklines) echo slope.hm ;;
     bsmesh | hmdraw) echo breaklines.hm ;;
@@ -50,7 +51,7 @@ printf '1 1 0\n2 2 0\n3 3 0\n4 4 0\n' >line.xyz
 printf '1 1 0\n1 1 0\n1 1 0\n1 1 0\n' >equal.xyz
 awk 'BEGIN { for (i = 0; i < 300; i++) printf "%c", 128 + i * 7919 % 127 }' >noise
 
-for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw; do
+for tool in bsgrid slope breaklines bsmesh trimesh stitch quality georef hmconv hmdraw; do
     command -v $tool >/dev/null || { skip "$tool is not built"; continue; }
     good=$(good_input $tool)
     size=$(wc -c <"$good")

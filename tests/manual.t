@@ -17,6 +17,9 @@ commands() {
 for page in "$man"/*.1 "$man"/*.7; do
     name=$(basename "$page")
     commands "$page" >commands
+    case $page in
+    *.1) command -v "${name%.1}" >/dev/null || { skip "${name%.1} is not built"; continue; } ;;
+    esac
     [ -s commands ] || { report 1 "$name has examples"; continue; }
     rm -rf try && mkdir try && cp ./*.xyz ./*.txt ./*.hm ./*.2dm try
     while IFS= read -r command; do

@@ -1,4 +1,4 @@
-/* hm_crs: the coordinate systems that georef knows, as the text of `#crs`. Layer 1, on hm_num.
+/* hm_crs: the coordinate systems that georef knows, as the text of `#crs`. Layer 3.
  *
  *     longitude latitude WGS84
  *     UTM 32N WGS84

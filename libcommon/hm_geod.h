@@ -1,4 +1,4 @@
-/* hm_geod: longitude and latitude to metres and back, by GeographicLib. Layer 2, on hm_crs.
+/* hm_geod: longitude and latitude to metres and back, by GeographicLib. Layer 6.
  *
  * The only part of the library that is C++, and not in libhm.a: georef alone links it. No exception
  * leaves it; what GeographicLib throws becomes HM_EGEOM or HM_EARG. All on the WGS84 ellipsoid.

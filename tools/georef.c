@@ -25,25 +25,24 @@ static struct {
 } cmd = {.scale = 1};
 
 static const struct hm_option options[] = {
-    {'t', "to", NULL, HM_OPT_CHOICE, &cmd.to, "the system of coordinates (default utm)",
+    {'t', "to", NULL, HM_OPT_CHOICE, &cmd.to, .help = "the system of coordinates (default utm)",
      .choices = "utm|tm|enu|same", .given = &cmd.to_given},
     {'z', "zone", "ZONE", HM_OPT_TEXT, &cmd.zone,
-     "utm: 32N, or N or S for UPS (default: that of the data's centre)", .given = NULL},
+     .help = "utm: 32N, or N or S for UPS (default: that of the data's centre)"},
     {'c', "centre", "LON,LAT[,H]", HM_OPT_TEXT, &cmd.centre,
-     "tm: central meridian and origin; enu: origin and its height", .given = NULL},
-    {'k', "scale", "K", HM_OPT_POSITIVE, &cmd.scale, "tm: on the central meridian (default 1)",
-     .given = NULL},
-    {0, "shift", "X,Y", HM_OPT_TEXT, &cmd.shift, "tm: coordinates of the centre (default 0,0)",
-     .given = NULL},
+     .help = "tm: central meridian and origin; enu: origin and its height"},
+    {'k', "scale", "K", HM_OPT_POSITIVE, &cmd.scale,
+     .help = "tm: on the central meridian (default 1)"},
+    {0, "shift", "X,Y", HM_OPT_TEXT, &cmd.shift,
+     .help = "tm: coordinates of the centre (default 0,0)"},
     {'i', "inverse", NULL, HM_OPT_FLAG, &cmd.inverse,
-     "from that system (default: the #crs) to longitude and latitude", .given = NULL},
+     .help = "from that system (default: the #crs) to longitude and latitude"},
     {'f', "from", "XY/Z", HM_OPT_TEXT, &cmd.from,
-     "units that come in: m, ft or us-ft (default: #units, or m)", .given = NULL},
-    {'u', "units", "XY/Z", HM_OPT_TEXT, &cmd.units, "units to write (default m)", .given = NULL},
+     .help = "units that come in: m, ft or us-ft (default: #units, or m)"},
+    {'u', "units", "XY/Z", HM_OPT_TEXT, &cmd.units, .help = "units to write (default m)"},
     {'g', "geoid", "MODEL", HM_OPT_TEXT, &cmd.geoid,
-     "heights from the ellipsoid to this geoid; with -i back", .silent = true},
-    {'m', "mgrs", NULL, HM_OPT_FLAG, &cmd.mgrs, "the inputs are tables of MGRS references",
-     .given = NULL},
+     .help = "heights from the ellipsoid to this geoid; with -i back", .silent = true},
+    {'m', "mgrs", NULL, HM_OPT_FLAG, &cmd.mgrs, .help = "the inputs are tables of MGRS references"},
     {0}};
 
 static const struct hm_program program = {.name = "georef",
@@ -51,7 +50,8 @@ static const struct hm_program program = {.name = "georef",
                                           .operands = "[file ...]",
                                           .options = options,
                                           .needs = HM_ANY,
-                                          .degrees_ok = true};
+                                          .degrees_ok = true,
+                                          .without = "K"};
 
 /* --- units --- */
 

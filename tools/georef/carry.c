@@ -1,12 +1,13 @@
 /* The places of an object, carried from one system to another. */
 #include "georef.h"
 
+#include "hm_batch.h"
 #include "hm_thread.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { BATCH = 65536, CHUNK = 2048 };
+enum { CHUNK = 2048 }; /* rows that a thread does at a time */
 
 struct job {
     const struct plan *plan;
@@ -129,16 +130,15 @@ static enum hm_err carry_points(struct hm_reader *r, const struct hm_header *h, 
                                 const struct plan *plan, int threads, struct extent *extent,
                                 struct hm_diag *d)
 {
-    double *rows = hm_alloc(BATCH * h->nfields, sizeof *rows);
-    size_t n;
-    enum hm_err err = rows ? HM_OK : hm_fail_memory(d);
-    while (!err && !(err = hm_reader_points(r, rows, BATCH, &n, d))) {
-        err = carry_all(plan, rows, n, h->nfields, threads, d);
-        georef_extend(err ? NULL : extent, rows, n, h->nfields);
+    struct hm_batch b = {0};
+    enum hm_err err = HM_OK;
+    while (!err && !(err = hm_batch_read(&b, r, h, d))) {
+        err = carry_all(plan, b.rows, b.n, h->nfields, threads, d);
+        georef_extend(err ? NULL : extent, b.rows, b.n, h->nfields);
         if (!err)
-            err = hm_writer_points(w, rows, n, d);
+            err = hm_writer_points(w, b.rows, b.n, d);
     }
-    free(rows);
+    hm_batch_free(&b);
     return err;
 }
 

@@ -66,10 +66,15 @@ static enum hm_err push_segment(struct refine *r, int32_t e)
     return HM_OK;
 }
 
+static bool is_whole(const struct refine *r, int32_t e)
+{
+    return (r->t->marks[e] & r->q->whole) != 0;
+}
+
 /* Queue a constraint that has a vertex too near. */
 static enum hm_err check_segment(struct refine *r, int32_t e)
 {
-    if (!r->t->marks[e])
+    if (!r->t->marks[e] || is_whole(r, e))
         return HM_OK;
     for (int side = 0; side < 2; side++, e = r->t->half[e].twin)
         if (is_inside(r, e / 3) && encroaches(r, e, hm_tri_at(r->t, hm_tri_apex_of(r->t, e))))
@@ -322,8 +327,8 @@ static int32_t walk(const struct refine *r, const double *p, int32_t *tri)
 }
 
 /* Queue the constraints that p would be too near: those on the rim of the triangles whose circles
- * it is in. They are in t->hole on return. */
-static enum hm_err check_place(struct refine *r, const double *p, int32_t tri)
+ * it is in. They are in t->hole on return. *taken: one of them may not be split. */
+static enum hm_err check_place(struct refine *r, const double *p, int32_t tri, bool *taken)
 {
     struct hm_tri *t = r->t;
     t->n_hole = 0;
@@ -332,7 +337,9 @@ static enum hm_err check_place(struct refine *r, const double *p, int32_t tri)
         for (int32_t e = 3 * t->hole[i]; !err && e < 3 * t->hole[i] + 3; e++) {
             int32_t f = t->half[e].twin;
             if (hm_tri_marks_of(t, e)) {
-                if (encroaches(r, e, p))
+                bool near = encroaches(r, e, p);
+                *taken = *taken || (near && is_whole(r, e));
+                if (near && !is_whole(r, e))
                     err = push_segment(r, e);
                 continue;
             }
@@ -374,19 +381,21 @@ static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
         return HM_OK;
     int32_t block = walk(r, p, &tri);
     enum hm_err err = HM_OK;
-    if (block != HM_TRI_NONE)
+    bool taken = block != HM_TRI_NONE && is_whole(r, block);
+    if (block != HM_TRI_NONE && !taken)
         err = push_segment(r, block);
-    else if (tri == HM_TRI_NONE || is_corner(r->t, tri, p))
-        return HM_OK; /* smaller than doubles can tell */
+    else if (taken || tri == HM_TRI_NONE || is_corner(r->t, tri, p))
+        return HM_OK; /* at a constraint that stays, or smaller than doubles can tell */
     else
-        err = check_place(r, p, tri);
+        err = check_place(r, p, tri, &taken);
     if (!err && r->n_split > before) { /* again when they are split, if they can be */
         bool again = work->added != r->added;
         work->added = r->added;
         return again ? hm_tri_worklist_push(&r->bad, *work, is.length2, r->d) : HM_OK;
     }
-    if (!err)
-        err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
+    if (err || taken)
+        return err;
+    err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
     if (!err)
         err = note_parent(r, v, (struct segment){HM_TRI_NONE, HM_TRI_NONE});
     r->done->inside += !err;

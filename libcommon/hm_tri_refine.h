@@ -20,6 +20,8 @@ struct hm_tri_quality {
     double (*area_at)(void *arg, double x, double y, int32_t region);
     void *arg;
 
+    int32_t whole;      /* constraints with any of these marks are never split; bad triangles that
+                         * would need it stay */
     int32_t outside;    /* triangles of this region are left alone: holes, and beyond the outline */
     int32_t hull_marks; /* hull edges that are no constraints become one with these marks (not 0) */
     int64_t most; /* no more than so many vertices are added, those taken out again included */

@@ -146,6 +146,38 @@ static void sizes(void)
     hm_tri_free(t);
 }
 
+/* Constraints that must stay in one piece: the long bottom edge of the shape. */
+static void whole(void)
+{
+    struct hm_tri *t = polygon(shape, 8, 8);
+    int32_t a = hm_tri_of_input(t, 0), b = hm_tri_of_input(t, 1);
+    struct hm_tri_segment s = {a, b, 2};
+    struct hm_tri_quality q = {
+        .min_angle = 25, .max_area = 0.1, .whole = 2, .outside = -1, .hull_marks = 1};
+    struct hm_tri_refined done;
+    bool good = !hm_tri_constrain(t, &s, 1, NULL, NULL) && !hm_tri_refine(t, &q, &done, NULL) &&
+                is_sound(t) && hm_tri_edge_between(t, a, b) != HM_TRI_NONE;
+    ok(good && done.on_segments > 0, "an edge stays whole, others are split: %lld on them",
+       (long long)done.on_segments);
+    int far = 0;
+    for (int32_t k = 0; k < hm_tri_triangles(t); k++) {
+        if (!hm_tri_is_solid(t, k) || hm_tri_region(t, k) == -1)
+            continue;
+        const double *p[3];
+        bool near = false;
+        for (int i = 0; i < 3; i++) {
+            p[i] = hm_tri_xy(t, hm_tri_org(t, 3 * k + i));
+            near = near || p[i][1] < 10 / 3.0;
+        }
+        double least = fmin(angle_at(p[0], p[1], p[2]),
+                            fmin(angle_at(p[1], p[2], p[0]), angle_at(p[2], p[0], p[1])));
+        far += !near && (least < 25 || hm_area2(p[0], p[1], p[2]) > 0.2);
+    }
+    ok(far == 0 && done.small + done.large > 0, "what is left bad is at it: %lld small, %lld large",
+       (long long)done.small, (long long)done.large);
+    hm_tri_free(t);
+}
+
 /* Random points, random constraints: whatever comes, it ends and is sound. */
 static void random_drawings(void)
 {
@@ -194,6 +226,7 @@ int main(void)
     bounds();
     needle();
     sizes();
+    whole();
     random_drawings();
     refusals();
     return done();

@@ -333,11 +333,11 @@ static enum hm_err finish(const struct hm_fence *f, double *xyz, size_t n, bool 
                           bool cut_end, const char *attrs, double clearance, struct hm_lines *out,
                           struct hm_diag *d)
 {
-    if (n >= 3 && cut_start && step(xyz, 0) < clearance / 2) {
+    if (n >= 3 && cut_start && step(xyz, 0) < clearance) {
         xyz += 3;
         n--;
     }
-    if (n >= 3 && cut_end && step(xyz, n - 2) < clearance / 2)
+    if (n >= 3 && cut_end && step(xyz, n - 2) < clearance)
         n--;
     struct hm_line piece = {.attrs = (char *)attrs, .xyz = xyz, .n = n};
     if (n < 2 || ((cut_start || cut_end) && hm_polyline_length(&piece) < clearance) ||

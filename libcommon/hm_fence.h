@@ -34,7 +34,7 @@ bool hm_fence_is_near(const struct hm_fence *f, double x, double y, double clear
 
 /* Append to `out` the pieces of a line that lie outside all meshes and not nearer to them than
  * `clearance` (m, > 0), with the line's attributes. Ends that were cut are kept clear of the next
- * vertex too, by half the clearance, and remnants shorter than it are dropped. A line that is clear
+ * vertex too, by as much, and remnants shorter than it are dropped. A line that is clear
  * everywhere comes out as it is. */
 enum hm_err hm_fence_cut(const struct hm_fence *f, const struct hm_line *line, double clearance,
                          struct hm_lines *out, struct hm_diag *d);

@@ -7,6 +7,7 @@
 #include "hm_cli.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
+#include "hm_trim.h"
 
 #include <errno.h>
 #include <math.h>
@@ -214,6 +215,14 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                                          .threads = hm_cli_threads(cli)};
     hm_cli_check(cli, hm_assemble(&assembly, dom, &counts, &d), &d);
     say_assembly(cli, &counts);
+    int64_t trimmed;
+    hm_cli_check(cli, hm_trim_breaklines(dom, cmd.clearance, hm_cli_threads(cli), &trimmed, &d),
+                 &d);
+    if (trimmed > 0)
+        hm_cli_say(cli,
+                   "%lld vertices of breaklines left out: nearer than %g m to a crossing, or loose "
+                   "ends to an outline",
+                   (long long)trimmed, cmd.clearance);
 }
 
 static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,

@@ -200,6 +200,15 @@ static const char *usual_unit(const char *field)
     return strlen(field) == 1 && strchr("xyz", field[0]) ? "m" : "1";
 }
 
+void hm_header_unit(const struct hm_header *h, size_t column, char *unit, size_t size)
+{
+    if (nth_word(hm_header_get(h, "units"), column, unit, size))
+        return;
+    /* the columns of a mesh have no names */
+    const char *field = column < h->nfields ? h->fields[column] : column < 3 ? "x" : "";
+    snprintf(unit, size, "%s", usual_unit(field));
+}
+
 static char *join_units(char *units, const char *unit)
 {
     size_t old = units ? strlen(units) : 0;

@@ -64,6 +64,10 @@ enum hm_err hm_header_add(struct hm_header *h, const char *name, const char *val
 /* Column of a field by name, from 0 (x); -1 when there is none. Band = column - 2. */
 int hm_header_field(const struct hm_header *h, const char *name);
 
+/* Unit of a column (0: x), cut to size: what `units` says, else "m" for x, y, z and "1" (a number)
+ * for others. */
+void hm_header_unit(const struct hm_header *h, size_t column, char *unit, size_t size);
+
 /* Append a column with its unit (NULL: "1"). Keeps `#units` in step with `#fields`; columns without
  * a unit so far are taken for metres (x, y, z) or numbers. */
 enum hm_err hm_header_add_field(struct hm_header *h, const char *name, const char *unit,

@@ -99,10 +99,21 @@ report $? "it is a PDF"
 hmdraw -t svg mesh.hm >typed.svg
 ok "format by option" grep -q '<svg' typed.svg
 
+for name in x.SVG x.Pdf x.PNG x a.b/x; do
+    mkdir -p a.b
+    hmdraw -o $name mesh.hm
+    printf '%s ' "$(magic $name)"
+done >magics
+ok "suffixes in any case, or none" grep -q '^<?xm %PDF 211PNG 211PNG 211PNG $' magics
+ok "-t counts more than the suffix" sh -c 'hmdraw -t png -o y.gif mesh.hm && [ -s y.gif ]'
+must_fail "another suffix" 2 "x.gif: no picture format; -t says png, svg or pdf" hmdraw -o x.gif mesh.hm
+[ ! -e x.gif ]
+report $? "and no file"
+
 # --- equal bytes ---
 for format in png svg pdf; do
-    hmdraw -t $format dem.asc points.xyz lines.txt mesh.hm >once.$format
-    hmdraw -t $format dem.asc points.xyz lines.txt mesh.hm >twice.$format
+    hmdraw -s 600 -t $format dem.asc points.xyz lines.txt mesh.hm >once.$format
+    hmdraw -s 600 -t $format dem.asc points.xyz lines.txt mesh.hm >twice.$format
     same "the same picture twice: $format" once.$format twice.$format
 done
 hmdraw <dem.asc >stdin.png
@@ -118,6 +129,16 @@ for fill in region wire z quality; do
 done
 ! cmp -s region.png quality.png
 report $? "fills differ"
+sed 's/^#fields.*/&\n#units m m m percent/' slope.hm >percent.hm
+hmdraw -B slope -o percent.png percent.hm
+hmdraw -B slope -o number.png slope.hm
+! cmp -s percent.png number.png
+report $? "the colour bar says the unit"
+sed 's/^#fields.*/&\n#units ft ft ft 1/' slope.hm >feet.hm
+hmdraw -o feet.png feet.hm
+hmdraw -o metres.png slope.hm
+! cmp -s feet.png metres.png
+report $? "feet are called so"
 ok "another band" hmdraw -B slope -o band.png slope.hm
 ok "one point" sh -c 'echo 545000 5972000 3 | hmdraw >one_point.png'
 ok "points all on a line" sh -c 'seq 9 | awk "{ print \$1, 7, 1 }" | hmdraw >on_line.png'
@@ -157,9 +178,65 @@ if python3 -c 'import zlib' 2>/dev/null; then
     true_that "small residual green" "$2 > $1"
     true_that "medium residual yellow" "$4 > 200 && $5 > 180 && $6 < 100"
     true_that "large residual red" "$7 > 200 && $8 < 100 && $9 < 50"
+
+    # a plain, 10 to 10.3 high, beside a mountain: in a window on the plain the colours are the plain's
+    awk 'BEGIN { print "#hm 1 grid text\n#size 21 11\n#origin 0 0\n#step 1 1\n#data"
+        for (y = 0; y <= 10; y++) for (x = 0; x <= 20; x++) print x, y, (x > 11 ? 500 : 10 + 0.03 * x)
+        print "#end" }' >plain.hm
+    hmdraw -P -s 100 -R 0/10/0/10 -o plain.png plain.hm
+    set -- $(pixel plain.png 5,50 95,50)
+    true_that "in the window low is blue" "$3 > $1 + 30"
+    true_that "and high is brown" "$4 > $6 + 30"
+
+    # a flat ground and a flat mesh on it: the swatch in the legend is the colour in the map
+    awk 'BEGIN { print "#hm 1 grid text\n#size 11 11\n#origin 0 0\n#step 1 1\n#data"
+        for (y = 0; y <= 10; y++) for (x = 0; x <= 10; x++) print x, y, 5
+        print "#end" }' >flat.hm
+    hmdraw -s 800 -R 0/10/0/10 -o swatch.png flat.hm mesh.hm
+    hmdraw -s 800 -R 0/10/0/10 -t svg -o swatch.svg mesh.hm
+    # frame: from 24.2 (2.2 of the text size, 11) to the panel; swatches in the panel, 17 wide
+    map=$((800 - 24 - 13 - 187))
+    set -- $(pixel swatch.png $((24 + map * 2 / 10)),$((13 + map / 2)) $((800 - 187 + 11)),$((13 + 11 + 17)) \
+        $((24 + map * 8 / 10)),$((13 + map * 4 / 10)) $((800 - 187 + 11)),$((13 + 11)))
+    for k in 1 2; do
+        true_that "swatch $k as in the map" \
+            "($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2 < 50 && $1 + $2 + $3 < 720"
+        shift 6
+    done
+
+    # 160,000 elements of half a pixel do not cover the colours under them
+    awk 'BEGIN { n = 400; print "#hm 1 mesh text\n#data"
+        for (j = 0; j <= n; j++) for (i = 0; i <= n; i++) print "v", i, j, 0, 0, 0
+        for (j = 0; j < n; j++) for (i = 0; i < n; i++) { a = j * (n + 1) + i
+            print "q", a, a + 1, a + n + 2, a + n + 1, 0 }
+        print "#end" }' >fine.hm
+    hmdraw -P -s 100 -o fine.png fine.hm
+    hmdraw -P -s 400 -R 0/40/0/40 -o coarse.png fine.hm
+    set -- $(pixel fine.png 50,50 51,50 50,51 51,51) $(pixel coarse.png 200,205)
+    true_that "wires too fine are left out" "$1 > 230 && $4 > 230 && $7 > 230 && ${10} > 230"
+    true_that "and drawn where there is room" "${13} < 230"
 else
     skip "no python3 to look at pixels"
 fi
+
+# --- heights and coordinates of any size: ticks must end ---
+drawn() {
+    printf '%b' "$2" >extreme.xyz
+    ok "drawn: $1" timeout 20 hmdraw -s 300 -o extreme.png extreme.xyz
+}
+drawn "heights whose range overflows" '1 1 -1e308\n2 2 1e308\n3 3 4\n'
+drawn "huge heights" '1 1 1.7e308\n2 2 1.6e308\n'
+drawn "heights 1e-300 apart" '1 1 0\n2 2 1e-300\n3 3 4e-301\n'
+drawn "heights subnormally apart" '1 1 0\n2 2 5e-324\n'
+drawn "heights apart by rounding" '1 1 1e15\n2 2 1000000000000000.1\n'
+drawn "all heights equal" '1 1 5\n2 2 5\n3 1 5\n'
+drawn "places 1e-300 apart" '0 0 1\n1e-300 1e-300 2\n'
+drawn "places far apart" '9e298 0 0\n0 3 4\n'
+must_fail "places whose distance overflows" 2 "far apart" timeout 20 \
+    sh -c "printf '1e308 1 1\n-1e308 2 2\n' | hmdraw"
+must_fail "a window of a few bits" 2 "too small" timeout 20 \
+    hmdraw -R 1e17/1.00000000000000016e17/0/16 mesh.hm
+must_fail "a window that overflows" 2 "too large" timeout 20 hmdraw -R -1e308/1e308/-1e308/1e308 mesh.hm
 
 # --- many elements in seconds ---
 awk 'BEGIN { n = 200; print "#hm 1 mesh text\n#data"
@@ -187,7 +264,9 @@ must_fail "no window" 2 "w/e/s/n" hmdraw -R 0/10/0 dem.asc
 must_fail "a window inside out" 2 "west" hmdraw -R 10/0/0/10 dem.asc
 hmdraw -R 20/30/20/30 -o beside.png mesh.hm 2>beside.err
 ok "a window beside the data is told" grep -q "data are in 1/9/1/9" beside.err
-must_fail "a size beyond reason" 2 "size" hmdraw -s 1e6 dem.asc
+must_fail "a size beyond reason" 2 "within 64 and 20000 pixels in PNG" hmdraw -s 1e6 dem.asc
+must_fail "a size beyond vectors" 2 "within 64 and 14400 points in SVG and PDF" hmdraw -t svg -s 20000 dem.asc
+must_fail "a place that cannot be written, before the work" 2 "nowhere/x.png" hmdraw -o nowhere/x.png word.xyz
 must_fail "a single colour" 2 "levels" hmdraw -l 1 dem.asc
 must_fail "an unknown format" 2 "type" hmdraw -t gif dem.asc
 printf '0 0 1\n1e308 1e308 1\n-1e308 -1e308 1\n' >far.xyz

@@ -118,16 +118,8 @@ static void parse_limits(struct tool *t)
 
 static enum hm_slope_unit unit_of(const struct hm_header *h, int column)
 {
-    char unit[16] = "";
-    const char *s = hm_header_get(h, "units");
-    for (int k = 0; s && k <= column; k++) {
-        s += strspn(s, " \t");
-        size_t n = strcspn(s, " \t");
-        size_t kept = n < sizeof unit - 1 ? n : sizeof unit - 1;
-        memcpy(unit, s, kept);
-        unit[kept] = 0;
-        s += n;
-    }
+    char unit[16];
+    hm_header_unit(h, (size_t)column, unit, sizeof unit);
     for (int u = HM_SLOPE_DEGREE; u <= HM_SLOPE_RADIAN; u++)
         if (!strcmp(unit, hm_slope_unit_name((enum hm_slope_unit)u)))
             return (enum hm_slope_unit)u;

@@ -5,9 +5,9 @@
 #include "hm_num.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 static struct {
@@ -60,7 +60,7 @@ struct drawing {
     struct layer *layer;
     size_t n, cap;
     struct view view;
-    struct range heights; /* of everything that is coloured by height */
+    struct scale heights; /* of everything that is coloured by height */
 };
 
 /* --- read --- */
@@ -92,6 +92,14 @@ static void read_layers(struct hm_cli *cli, struct drawing *drawing)
         }
         hm_cli_check(cli, err, &d);
     }
+}
+
+static const struct hm_header *header_of(const struct layer *layer)
+{
+    return layer->kind == HM_POINTS  ? &layer->of.points.header
+           : layer->kind == HM_GRID  ? &layer->of.grid.header
+           : layer->kind == HM_LINES ? &layer->of.lines.header
+                                     : &layer->of.mesh.header;
 }
 
 static void free_layers(struct drawing *drawing)
@@ -142,12 +150,20 @@ static void widen_by_layer(struct view *v, const struct layer *layer)
     }
 }
 
+/* Side below which doubles cannot tell places in the window apart well enough. */
+static double least_side(const struct view *v)
+{
+    return fmax(1e-9, 1e-9 * fmax(fabs(v->w) + fabs(v->e), fabs(v->s) + fabs(v->n)));
+}
+
+/* A longest side beyond which lengths on the page would overflow. */
+static const double most_side = 1e300;
+
 /* A little room around the data, and a shape that fits a page. */
 static void round_window(struct view *v)
 {
     double width = v->e - v->w, height = v->n - v->s, least = fmax(width, height);
-    double tiny = 1e-9 * fmax(fabs(v->w) + fabs(v->e), fabs(v->s) + fabs(v->n));
-    least = fmax(least > 0 ? least / 8 : 1, tiny);
+    least = fmax(least > 1e-9 ? least / 8 : 1, least_side(v));
     double room = 0.01 * fmax(least, fmin(width, height));
     double dx = fmax(room, (least - width) / 2), dy = fmax(room, (least - height) / 2);
     v->w -= dx;
@@ -169,6 +185,11 @@ static void parse_window(struct hm_cli *cli, const char *text, struct view *v)
     *v = (struct view){.w = value[0], .e = value[1], .s = value[2], .n = value[3]};
     if (!(v->w < v->e && v->s < v->n))
         hm_cli_die(cli, "--region: west must be less than east, south less than north");
+    const double least = least_side(v);
+    if (v->e - v->w < least || v->n - v->s < least)
+        hm_cli_die(cli, "--region: a window too small for such coordinates");
+    if (!(v->e - v->w < most_side && v->n - v->s < most_side))
+        hm_cli_die(cli, "--region: a window too large to draw");
     if (v->e - v->w > 100 * (v->n - v->s) || v->n - v->s > 100 * (v->e - v->w))
         hm_cli_die(cli, "--region: a window more than 100 times as long as wide");
 }
@@ -189,94 +210,59 @@ static void choose_window(struct hm_cli *cli, struct drawing *drawing)
         return;
     }
     round_window(&all);
-    if (!isfinite(all.e - all.w) || !isfinite(all.n - all.s))
+    if (!(all.e - all.w < most_side && all.n - all.s < most_side))
         hm_cli_die(cli, "coordinates too far apart to draw");
     *v = all;
 }
 
-/* --- the range of colours --- */
+/* --- colours --- */
 
-/* Up to SAMPLES values of each layer; ranges leave out the outermost 0.5 % of them, for blunders.
- */
-enum { SAMPLES = 100000 };
-
-struct sampling {
-    double *v;
-    size_t n, cap;
-};
-
-static void take(struct hm_cli *cli, struct sampling *s, double value)
-{
-    if (!isfinite(value))
-        return;
-    if (!hm_grow(&s->v, &s->cap, s->n + 1, sizeof *s->v))
-        hm_cli_die(cli, "out of memory");
-    s->v[s->n++] = value;
-}
-
-static void take_band(struct hm_cli *cli, struct sampling *s, const struct hm_grid *g, size_t band)
-{
-    size_t nodes = (size_t)(g->header.lattice.nx * g->header.lattice.ny);
-    for (size_t i = 0, stride = nodes / SAMPLES + 1; i < nodes; i += stride)
-        take(cli, s, g->v[i * g->bands + band]);
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Empties the sampling. */
-static struct range robust_range(struct sampling *s)
-{
-    struct range range = {0, 0};
-    if (s->n) {
-        qsort(s->v, s->n, sizeof *s->v, by_value);
-        size_t cut = s->n / 200;
-        range = (struct range){s->v[cut], s->v[s->n - 1 - cut]};
-    }
-    free(s->v);
-    *s = (struct sampling){0};
-    return range;
-}
-
+/* All heights in the window share one scale, with the unit of the first layer that has any. */
 static void find_heights(struct hm_cli *cli, struct drawing *drawing)
 {
+    const struct view *v = &drawing->view;
+    struct scale *heights = &drawing->heights;
     struct sampling s = {0};
+    struct hm_diag d = {0};
     for (size_t k = 0; k < drawing->n; k++) {
         const struct layer *layer = &drawing->layer[k];
-        if (layer->kind == HM_POINTS) {
-            const struct hm_points *p = &layer->of.points;
-            for (size_t i = 0, stride = p->n / SAMPLES + 1; i < p->n; i += stride)
-                take(cli, &s, p->v[i * p->stride + 2]);
-        } else if (layer->kind == HM_GRID) {
-            take_band(cli, &s, &layer->of.grid, 0);
-        } else if (layer->kind == HM_MESH) {
-            const struct hm_mesh *m = &layer->of.mesh;
-            for (size_t i = 0, stride = m->nnodes / SAMPLES + 1; i < m->nnodes; i += stride)
-                take(cli, &s, m->node[i].z);
-        }
+        enum hm_err err = HM_OK;
+        if (layer->kind == HM_POINTS)
+            err = sample_points(&s, v, &layer->of.points, &d);
+        else if (layer->kind == HM_GRID)
+            err = sample_grid(&s, v, &layer->of.grid, 0, &d);
+        else if (layer->kind == HM_MESH)
+            err = sample_mesh(&s, v, &layer->of.mesh, &d);
+        hm_cli_check(cli, err, &d);
+        struct scale own;
+        scale_name(&own, header_of(layer), 2, "z");
+        if (layer->kind == HM_LINES)
+            continue;
+        if (!*heights->title)
+            *heights = own;
+        else if (strcmp(heights->title, own.title))
+            hm_cli_say(cli, "heights in different units share one scale of colours");
     }
-    drawing->heights = robust_range(&s);
+    heights->range = sampling_range(&s);
 }
 
 /* --- draw --- */
 
 static enum hm_err draw_grid_layer(struct hm_cli *cli, struct page *page, const struct hm_grid *g,
-                                   struct range heights, struct hm_diag *d)
+                                   const struct scale *heights, struct hm_diag *d)
 {
     const char *name = cmd.band ? cmd.band : g->header.fields[2];
     int field = hm_header_field(&g->header, name);
     if (field < 2)
         hm_cli_die(cli, "--band: the grid has no band '%s'", name);
-    size_t band = (size_t)field - 2;
-    if (strcmp(name, "z")) {
-        struct sampling s = {0};
-        take_band(cli, &s, g, band);
-        heights = robust_range(&s);
-    }
-    return draw_grid(page, g, band, name, heights, d);
+    if (!strcmp(name, "z"))
+        return draw_grid(page, g, (size_t)field - 2, true, heights, d);
+    struct scale scale;
+    struct sampling s = {0};
+    enum hm_err err = sample_grid(&s, &page->view, g, (size_t)field - 2, d);
+    scale.range = sampling_range(&s);
+    scale_name(&scale, &g->header, (size_t)field, name);
+    return err ? err : draw_grid(page, g, (size_t)field - 2, false, &scale, d);
 }
 
 static void draw_layers(struct hm_cli *cli, struct page *page, const struct drawing *drawing)
@@ -286,13 +272,13 @@ static void draw_layers(struct hm_cli *cli, struct page *page, const struct draw
         const struct layer *layer = &drawing->layer[k];
         enum hm_err err = HM_OK;
         if (layer->kind == HM_POINTS)
-            err = draw_points(page, &layer->of.points, drawing->heights, &d);
+            err = draw_points(page, &layer->of.points, &drawing->heights, &d);
         else if (layer->kind == HM_GRID)
-            err = draw_grid_layer(cli, page, &layer->of.grid, drawing->heights, &d);
+            err = draw_grid_layer(cli, page, &layer->of.grid, &drawing->heights, &d);
         else if (layer->kind == HM_LINES)
             err = draw_lines(page, &layer->of.lines, &d);
         else
-            err = draw_mesh(page, &layer->of.mesh, (enum mesh_fill)cmd.fill, drawing->heights, &d);
+            err = draw_mesh(page, &layer->of.mesh, (enum mesh_fill)cmd.fill, &drawing->heights, &d);
         hm_cli_check(cli, err, &d);
         hm_cli_progress(cli, "drawing", (double)(k + 1) / (double)drawing->n);
     }
@@ -312,15 +298,39 @@ static cairo_status_t sink_write(void *closure, const unsigned char *data, unsig
                                                                  : CAIRO_STATUS_SUCCESS;
 }
 
+/* The format that the suffix of -o says, in any case; PNG without a suffix. */
+static int format_of_suffix(struct hm_cli *cli, const char *path)
+{
+    static const char *const suffix[] = {
+        [FORMAT_PNG] = ".png", [FORMAT_SVG] = ".svg", [FORMAT_PDF] = ".pdf"};
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    if (!dot || !strcmp(path, "-"))
+        return FORMAT_PNG;
+    for (int k = FORMAT_PNG; k <= FORMAT_PDF; k++)
+        if (!strcasecmp(dot, suffix[k]))
+            return k;
+    hm_cli_die(cli, "%s: no picture format; -t says png, svg or pdf", path);
+}
+
 static enum format choose_format(struct hm_cli *cli)
 {
-    const char *path = hm_cli_output(cli), *dot = strrchr(path, '.');
-    int type = cmd.type;
-    if (!cmd.has_type && dot)
-        type = !strcmp(dot, ".svg") ? FORMAT_SVG : !strcmp(dot, ".pdf") ? FORMAT_PDF : FORMAT_PNG;
+    const char *path = hm_cli_output(cli);
+    int type = cmd.has_type ? cmd.type : format_of_suffix(cli, path);
     if (type != FORMAT_SVG && !strcmp(path, "-") && isatty(STDOUT_FILENO))
         hm_cli_die(cli, "a picture does not go to a terminal; use -o or a pipe");
     return (enum format)type;
+}
+
+/* Images in cairo end at 32,767 pixels, and those in vector formats have two a unit; readers of PDF
+ * take pages up to 14,400 units. */
+static void check_numbers(struct hm_cli *cli, enum format format)
+{
+    const int most = format == FORMAT_PNG ? 20000 : 14400;
+    const char *unit = format == FORMAT_PNG ? "pixels in PNG" : "points in SVG and PDF";
+    if (cmd.size < 64 || cmd.size > most)
+        hm_cli_die(cli, "--size: must be within 64 and %d %s", most, unit);
+    if (cmd.levels < 2 || cmd.levels > 256)
+        hm_cli_die(cli, "--levels: must be within 2 and 256");
 }
 
 int main(int argc, char **argv)
@@ -328,18 +338,16 @@ int main(int argc, char **argv)
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct drawing drawing = {0};
     struct page page = {.plain = cmd.plain, .levels = cmd.levels, .format = choose_format(cli)};
-    if (cmd.size < 64 || cmd.size > 20000)
-        hm_cli_die(cli, "--size: must be within 64 and 20000 pixels");
-    if (cmd.levels < 2 || cmd.levels > 256)
-        hm_cli_die(cli, "--levels: must be within 2 and 256");
+    check_numbers(cli, page.format);
     if (cmd.region)
         parse_window(cli, cmd.region, &drawing.view);
+    struct sink sink = {.writer = hm_cli_writer(cli)}; /* before the work: it may not be writable */
     read_layers(cli, &drawing);
     choose_window(cli, &drawing);
     find_heights(cli, &drawing);
 
-    struct sink sink = {.writer = hm_cli_writer(cli)};
     page.view = drawing.view;
+    hm_header_unit(header_of(&drawing.layer[0]), 0, page.unit, sizeof page.unit);
     hm_cli_check(cli, page_open(&page, cmd.size, cmd.title, sink_write, &sink, &sink.d), &sink.d);
     draw_layers(cli, &page, &drawing);
     page_furnish(&page, cmd.title);

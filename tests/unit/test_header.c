@@ -49,6 +49,14 @@ static void test_fields(void)
     ok(is(hm_header_get(&h, "units"), "m m m 1 degree"), "units in step with fields");
     hm_header_add_field(&h, "class", NULL, &d);
     ok(is(hm_header_get(&h, "units"), "m m m 1 degree 1"), "and a number without unit");
+    char unit[4];
+    hm_header_unit(&h, 4, unit, sizeof unit);
+    ok(is(unit, "deg"), "the unit of a column, cut to size");
+    hm_header_set(&h, "units", "ft", &d);
+    hm_header_unit(&h, 2, unit, sizeof unit);
+    ok(is(unit, "m"), "of one that has none said, the usual");
+    hm_header_unit(&h, 4, unit, sizeof unit);
+    ok(is(unit, "1"), "a number, if it is not a coordinate");
     ok(hm_header_field(&h, "slope") == 4 && hm_header_field(&h, "aspect") == -1, "found by name");
     hm_header_free(&h);
 }

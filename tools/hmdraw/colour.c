@@ -29,9 +29,18 @@ static const struct rgb stops[][STOPS] = {
                     {0.36, 0.03, 0.32}},
 };
 
+/* In halves, since heights of -1e308 and 1e308 are further apart than a double can say. */
 double range_part(struct range range, double v)
 {
-    return range.hi > range.lo ? (v - range.lo) / (range.hi - range.lo) : 0.5;
+    double whole = range.hi / 2 - range.lo / 2;
+    return whole > 0 ? (v / 2 - range.lo / 2) / whole : 0.5;
+}
+
+struct rgb blend(struct rgb over, double alpha, struct rgb under)
+{
+    double rest = 1 - alpha;
+    return (struct rgb){over.r * alpha + under.r * rest, over.g * alpha + under.g * rest,
+                        over.b * alpha + under.b * rest};
 }
 
 struct rgb ramp_colour(enum ramp ramp, double t)

@@ -15,7 +15,15 @@ struct rgb {
 };
 
 struct range {
-    double lo, hi; /* empty when hi < lo */
+    double lo, hi; /* lo == hi: one value */
+};
+
+enum { LEGEND_ITEMS = 24, LEGEND_TEXT = 40 };
+
+/* What a colour means. */
+struct scale {
+    struct range range;
+    char title[LEGEND_TEXT]; /* "Height (m)" */
 };
 
 /* --- colour.c --- */
@@ -31,7 +39,10 @@ void set_colour(struct page *page, struct rgb colour, double alpha);
 
 extern const struct rgb INK, PAPER, GREY, BREAKLINE, ROUGH, STRING, GOOD, FAIR, POOR;
 
-/* --- page.c --- */
+/* The colour that one of that opacity takes over another. */
+struct rgb blend(struct rgb over, double alpha, struct rgb under);
+
+/* --- view.c --- */
 
 /* Window in the data's coordinates, and where it lies on the page. */
 struct view {
@@ -49,9 +60,35 @@ static inline double view_y(const struct view *v, double y)
     return v->y + (v->n - y) * v->scale;
 }
 
-enum format { FORMAT_PNG, FORMAT_SVG, FORMAT_PDF };
+/* Is a place in the window; is an element, perhaps: do their boxes meet? */
+bool view_holds(const struct view *v, double x, double y);
+bool view_meets(const struct view *v, const struct hm_mesh *m, const struct hm_elem *e);
+/* How many of them. */
+size_t view_points(const struct view *v, const struct hm_points *p);
+size_t view_elements(const struct view *v, const struct hm_mesh *m);
 
-enum { LEGEND_ITEMS = 24, LEGEND_TEXT = 40 };
+/* --- range.c --- */
+
+/* Values in the window, up to some 100,000 a layer; begin with {0}. */
+struct sampling {
+    double *v;
+    size_t n, cap;
+};
+enum hm_err sample_points(struct sampling *s, const struct view *v, const struct hm_points *p,
+                          struct hm_diag *d);
+enum hm_err sample_grid(struct sampling *s, const struct view *v, const struct hm_grid *g,
+                        size_t band, struct hm_diag *d);
+enum hm_err sample_mesh(struct sampling *s, const struct view *v, const struct hm_mesh *m,
+                        struct hm_diag *d);
+/* The range of the values, without blunders; frees them. */
+struct range sampling_range(struct sampling *s);
+
+/* Title of a scale from the name of a column and its unit. */
+void scale_name(struct scale *scale, const struct hm_header *h, size_t column, const char *name);
+
+/* --- page.c --- */
+
+enum format { FORMAT_PNG, FORMAT_SVG, FORMAT_PDF };
 
 enum legend_mark { MARK_LINE, MARK_DASHES, MARK_DOT, MARK_FILL, MARK_BAR };
 
@@ -64,6 +101,16 @@ struct legend_item {
     struct range range; /* MARK_BAR */
 };
 
+/* An image that covers the map, `zoom` pixels a page unit: premultiplied ARGB, row by row. */
+struct image {
+    cairo_surface_t *surface;
+    uint32_t *pixel;
+    int64_t width, height, stride;
+    double zoom;
+};
+
+enum { GROUND_CELL = 8 }; /* page units between the colours kept of the ground */
+
 struct page {
     cairo_surface_t *surface;
     cairo_t *cr;
@@ -71,9 +118,12 @@ struct page {
     enum format format;
     double width, height; /* pixels */
     double em;            /* size of the text, pixels */
+    char unit[24];        /* of x and y */
     int levels;           /* of each colour channel in a PNG, 2 .. 256 */
     bool plain;           /* the map alone, without frame and panel */
     bool has_ground;      /* something opaque was drawn already: fills become transparent */
+    struct rgb *ground;   /* colours of the grids so far, row by row; NULL: none */
+    struct image relief;  /* light and shade alone of the grids so far; surface NULL: none */
     struct legend_item item[LEGEND_ITEMS];
     size_t nitems;
 };
@@ -88,26 +138,31 @@ void page_furnish(struct page *page, const char *title);
 enum hm_err page_close(struct page *page, cairo_write_func_t write, void *closure,
                        struct hm_diag *d);
 
-/* An image that covers the map, `zoom` pixels a page unit: premultiplied ARGB, row by row. */
-struct image {
-    cairo_surface_t *surface;
-    uint32_t *pixel;
-    int64_t width, height, stride;
-    double zoom;
-};
 enum hm_err image_open(struct image *image, const struct page *page, struct hm_diag *d);
 void image_put(struct image *image, int64_t x, int64_t y, struct rgb colour, double alpha);
 void image_paint(struct image *image, struct page *page); /* and free */
+/* The colour of the ground at a place; PAPER where there is none. */
+struct rgb page_ground(const struct page *page, double x, double y);
+/* Let light and shade of the ground fall on the current path, and begin a new one. */
+void page_shade(struct page *page);
 
 /* --- legend.c --- */
 
 /* Enter an item, or add its count to the one that has the same text and mark. */
 void legend_add(struct page *page, enum legend_mark mark, struct rgb colour, int64_t count,
                 const char *format, ...) __attribute__((format(printf, 5, 6)));
-void legend_bar(struct page *page, enum ramp ramp, struct range range, const char *text);
+void legend_bar(struct page *page, enum ramp ramp, const struct scale *scale);
 void legend_draw(struct page *page, double x, double y);
-/* 1, 2 or 5 times a power of ten, the greatest not over v. */
+/* 1, 2 or 5 times a power of ten, the greatest not over v > 0, which must be finite. */
 double nice_step(double v);
+/* The multiples of a nice step, not over `step`, within a range; or its only value. */
+struct ticks {
+    double first, step; /* value k: (first + k) * step */
+    int n;
+};
+struct ticks ticks_within(struct range range, double step);
+/* The value of a tick, in as many digits as tell it from the others. */
+double tick_print(const struct ticks *ticks, int k, char text[32]);
 void draw_text(struct page *page, double x, double y, double size, const char *text);
 
 /* --- the layers --- */
@@ -115,12 +170,12 @@ void draw_text(struct page *page, double x, double y, double size, const char *t
 enum mesh_fill { FILL_REGION, FILL_WIRE, FILL_Z, FILL_QUALITY };
 
 /* The band drawn by height is shaded; others get colour alone. */
-enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, const char *name,
-                      struct range range, struct hm_diag *d);
-enum hm_err draw_points(struct page *page, const struct hm_points *p, struct range heights,
+enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, bool relief,
+                      const struct scale *scale, struct hm_diag *d);
+enum hm_err draw_points(struct page *page, const struct hm_points *p, const struct scale *heights,
                         struct hm_diag *d);
 enum hm_err draw_lines(struct page *page, const struct hm_lines *l, struct hm_diag *d);
 enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill fill,
-                      struct range heights, struct hm_diag *d);
+                      const struct scale *heights, struct hm_diag *d);
 
 #endif

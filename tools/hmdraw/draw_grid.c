@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The grid as a field of page pixels: where a pixel has no height it is NaN. */
 struct field {
@@ -130,9 +129,10 @@ static double step_to(double v, double levels)
 }
 
 /* Light and colour go in steps too small to disturb: a noisy ground in smooth ones makes pictures
- * twice as large. */
-static void paint_relief(struct image *image, const struct field *f, int64_t reach, double step,
-                         struct range range)
+ * twice as large. The light alone goes to `lights`, black where less of it falls than on level
+ * ground and white where more does. */
+static void paint_relief(struct image *image, struct image *lights, const struct field *f,
+                         int64_t reach, double step, struct range range)
 {
     const double stretch = exaggeration(f, reach, step) / step;
     for (int64_t y = 0; y < f->height; y++)
@@ -144,6 +144,8 @@ static void paint_relief(struct image *image, const struct field *f, int64_t rea
             double light = step_to(0.35 + 0.65 * shade(s, stretch), 32);
             struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 48));
             image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
+            lights->pixel[y * lights->stride + x] = 0; /* the grid on top counts */
+            image_put(lights, x, y, light < 1 ? (struct rgb){0, 0, 0} : PAPER, fabs(1 - light));
         }
 }
 
@@ -157,25 +159,61 @@ static void paint_values(struct image *image, const struct field *f, struct rang
         }
 }
 
-enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, const char *name,
-                      struct range range, struct hm_diag *d)
+static enum hm_err shade_field(struct page *page, struct image *image, const struct hm_grid *g,
+                               const struct field *f, struct range range, struct hm_diag *d)
 {
+    enum hm_err err = page->relief.surface ? HM_OK : image_open(&page->relief, page, d);
+    if (err)
+        return err;
+    double step = 1 / (page->view.scale * image->zoom); /* metres a pixel */
+    double node = fmin(fabs(g->header.lattice.dx), fabs(g->header.lattice.dy)) / step;
+    int64_t reach = node > 1 ? (int64_t)ceil(fmin(node, 1e6)) : 1;
+    paint_relief(image, &page->relief, f, reach, step, range);
+    cairo_surface_mark_dirty(page->relief.surface);
+    return HM_OK;
+}
+
+/* The colours of the map, at every GROUND_CELL of it, for legends; without light and shade. */
+static enum hm_err keep_ground(struct page *page, const struct field *f, double zoom,
+                               enum ramp ramp, struct range range, struct hm_diag *d)
+{
+    const int64_t nx = (int64_t)page->view.width / GROUND_CELL + 1;
+    const int64_t ny = (int64_t)page->view.height / GROUND_CELL + 1;
+    if (!page->ground) {
+        page->ground = hm_alloc((size_t)(nx * ny), sizeof *page->ground);
+        if (!page->ground)
+            return hm_fail_memory(d);
+        for (int64_t k = 0; k < nx * ny; k++)
+            page->ground[k] = PAPER;
+    }
+    for (int64_t k = 0; k < nx * ny; k++) {
+        double x = ((double)(k % nx) + 0.5) * GROUND_CELL * zoom;
+        double y = ((double)(k / nx) + 0.5) * GROUND_CELL * zoom;
+        double z = field_at(f, (int64_t)x, (int64_t)y);
+        if (!isnan(z))
+            page->ground[k] = ramp_colour(ramp, range_part(range, z));
+    }
+    return HM_OK;
+}
+
+enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, bool relief,
+                      const struct scale *scale, struct hm_diag *d)
+{
+    const enum ramp ramp = relief ? RAMP_HEIGHT : RAMP_VALUE;
     struct image image;
     enum hm_err err = image_open(&image, page, d);
     if (err)
         return err;
     struct field f = {.width = image.width, .height = image.height};
     err = resample(&f, g, band, &page->view, image.zoom, d);
+    if (!err && relief)
+        err = shade_field(page, &image, g, &f, scale->range, d);
+    else if (!err)
+        paint_values(&image, &f, scale->range);
     if (!err) {
-        double step = 1 / (page->view.scale * image.zoom); /* metres a pixel */
-        double node = fmin(fabs(g->header.lattice.dx), fabs(g->header.lattice.dy)) / step;
-        bool relief = !strcmp(name, "z");
-        if (relief)
-            paint_relief(&image, &f, node > 1 ? (int64_t)ceil(node) : 1, step, range);
-        else
-            paint_values(&image, &f, range);
-        legend_bar(page, relief ? RAMP_HEIGHT : RAMP_VALUE, range, relief ? "Height (m)" : name);
+        legend_bar(page, ramp, scale);
         page->has_ground = true;
+        err = keep_ground(page, &f, image.zoom, ramp, scale->range, d);
     }
     image_paint(&image, page);
     free(f.z);

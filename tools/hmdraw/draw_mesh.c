@@ -1,9 +1,9 @@
 /* Meshes: elements filled by what they belong to, by height or by their smallest angle, under thin
- * wires; the boundary and the seams between regular and irregular parts stronger. */
+ * wires; the seams between their parts a little stronger, the boundary thick. */
 #include "draw.h"
 
 #include "hm_elem.h"
-#include "hm_meshcheck.h"
+#include "hm_meshedges.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -53,13 +53,14 @@ static struct rgb angle_colour(int32_t class)
 }
 
 static int32_t class_of(const struct hm_mesh *m, const struct hm_elem *e, enum mesh_fill fill,
-                        struct range heights)
+                        const struct scale *heights)
 {
     if (fill == FILL_Z) {
         double z = 0;
         for (int k = 0; k < hm_elem_corners(e); k++)
             z += m->node[e->node[k]].z / hm_elem_corners(e);
-        return isnan(z) ? -1 : (int32_t)(fmin(1, fmax(0, range_part(heights, z))) * (SHADES - 1));
+        return isnan(z) ? -1
+                        : (int32_t)(fmin(1, fmax(0, range_part(heights->range, z))) * (SHADES - 1));
     }
     if (fill == FILL_QUALITY) {
         double least, most;
@@ -85,19 +86,6 @@ static void element_path(struct page *page, const struct hm_mesh *m, const struc
     cairo_close_path(page->cr);
 }
 
-static bool is_visible(const struct view *v, const struct hm_mesh *m, const struct hm_elem *e)
-{
-    bool w = false, east = false, s = false, n = false;
-    for (int k = 0; k < hm_elem_corners(e); k++) {
-        const struct hm_node *node = &m->node[e->node[k]];
-        w |= node->x >= v->w;
-        east |= node->x <= v->e;
-        s |= node->y >= v->s;
-        n |= node->y <= v->n;
-    }
-    return w && east && s && n;
-}
-
 static struct rgb class_colour(int32_t class, enum mesh_fill fill)
 {
     if (fill == FILL_Z)
@@ -108,38 +96,64 @@ static struct rgb class_colour(int32_t class, enum mesh_fill fill)
 }
 
 /* Heights and qualities are opaque; what the parts are is a tint, through which the ground shows.
- */
+ * Where it has a relief the tint may cover its colours almost: light and shade fall on it again. */
 static double class_alpha(const struct page *page, int32_t class, enum mesh_fill fill)
 {
-    if (fill != FILL_REGION)
+    if (fill != FILL_REGION || !page->has_ground)
         return 1;
-    if (!page->has_ground)
-        return 1;
-    return class > 0 ? 0.7 : 0.25;
+    return class <= 0 ? 0.25 : page->relief.surface ? 0.85 : 0.7;
+}
+
+/* Fill the current path; begin a new one. */
+static void fill_path(struct page *page, struct rgb colour, double alpha)
+{
+    set_colour(page, colour, alpha);
+    if (alpha < 1 && alpha > 0.5 && page->relief.surface) {
+        cairo_fill_preserve(page->cr);
+        page_shade(page);
+    } else {
+        cairo_fill(page->cr);
+    }
 }
 
 /* Returns how many elements of the class lie in the window. */
 static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int32_t *class,
                           int32_t wanted, enum mesh_fill fill)
 {
-    set_colour(page, class_colour(wanted, fill), class_alpha(page, wanted, fill));
+    const struct rgb colour = class_colour(wanted, fill);
+    const double alpha = class_alpha(page, wanted, fill);
     int64_t count = 0;
     for (size_t k = 0; k < m->nelems; k++) {
-        if (class[k] != wanted || !is_visible(&page->view, m, &m->elem[k]))
+        if (class[k] != wanted || !view_meets(&page->view, m, &m->elem[k]))
             continue;
         element_path(page, m, &m->elem[k]);
         if (++count % PIECE == 0)
-            cairo_fill(page->cr);
+            fill_path(page, colour, alpha);
     }
-    cairo_fill(page->cr);
+    fill_path(page, colour, alpha);
     return count;
 }
 
+/* The mean colour of the ground under the elements of a class, by their area in the window. */
+static struct rgb ground_under(const struct page *page, const struct hm_mesh *m,
+                               const int32_t *class, int32_t wanted)
+{
+    struct rgb mean = PAPER;
+    double whole = 0;
+    for (size_t k = 0; k < m->nelems; k++) {
+        const struct hm_elem *e = &m->elem[k];
+        const struct hm_node *a = &m->node[e->node[0]], *b = &m->node[e->node[2]];
+        double area = fabs(hm_elem_area(m, e)), x = (a->x + b->x) / 2, y = (a->y + b->y) / 2;
+        if (class[k] == wanted && area > 0 && view_holds(&page->view, x, y))
+            mean = blend(page_ground(page, x, y), area / (whole += area), mean);
+    }
+    return mean;
+}
+
 static void enter_class(struct page *page, const struct hm_mesh *m, int32_t class, int64_t count,
-                        enum mesh_fill fill, bool owned)
+                        enum mesh_fill fill, bool owned, struct rgb colour)
 {
     char name[NAME];
-    struct rgb colour = class_colour(class, fill);
     if (fill == FILL_QUALITY)
         legend_add(page, MARK_FILL, colour, count, "%s", angle_class[class].text);
     if (fill != FILL_REGION)
@@ -153,6 +167,15 @@ static void enter_class(struct page *page, const struct hm_mesh *m, int32_t clas
         legend_add(page, MARK_FILL, colour, count, "region %d", (int)class);
     else
         legend_add(page, MARK_FILL, colour, count, "%s", owned || irregular ? "irregular" : "mesh");
+}
+
+/* A class as it looks over the ground. */
+static struct rgb swatch(const struct page *page, const struct hm_mesh *m, const int32_t *class,
+                         int32_t wanted, enum mesh_fill fill)
+{
+    double alpha = class_alpha(page, wanted, fill);
+    struct rgb colour = class_colour(wanted, fill);
+    return alpha < 1 ? blend(colour, alpha, ground_under(page, m, class, wanted)) : colour;
 }
 
 /* Paint every class in turn, from the lowest, and enter it in the legend. */
@@ -170,34 +193,54 @@ static void fill_elements(struct page *page, const struct hm_mesh *m, const int3
             break;
         int64_t count = fill_class(page, m, class, (int32_t)next, fill);
         if (count)
-            enter_class(page, m, (int32_t)next, count, fill, owned);
+            enter_class(page, m, (int32_t)next, count, fill, owned,
+                        swatch(page, m, class, (int32_t)next, fill));
         last = next;
     }
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_DEFAULT);
 }
 
-/* --- wires --- */
+/* --- edges --- */
 
-enum stress { WIRE, SEAM, BORDER };
+/* Wires in so many grades, from the faintest, then the stronger lines. */
+enum { GRADES = 8, SEAM = GRADES, BORDER, HIDDEN };
 
-static enum stress stress_of(const struct hm_mesh_edge *e, const int32_t *class,
-                             enum mesh_fill fill)
+/* Size of the smaller element beside an edge, page units: the root of its area. */
+static double room_at(const struct page *page, const struct hm_mesh *m,
+                      const struct hm_mesh_edge *e)
+{
+    double area = fabs(hm_elem_area(m, &m->elem[e->left]));
+    if (e->right >= 0)
+        area = fmin(area, fabs(hm_elem_area(m, &m->elem[e->right])));
+    return sqrt(area) * page->view.scale;
+}
+
+/* Where elements are small on the page their wires are faint, or the map would drown in them: under
+ * half a pixel there are none, from 9 on they are strongest. */
+static unsigned char grade_of(const struct page *page, const struct hm_mesh *m,
+                              const struct hm_mesh_edge *e, const int32_t *class,
+                              enum mesh_fill fill)
 {
     if (e->right < 0)
         return BORDER;
-    return fill == FILL_REGION && class[e->left] != class[e->right] ? SEAM : WIRE;
+    if (fill == FILL_REGION && class[e->left] != class[e->right])
+        return SEAM;
+    double room = room_at(page, m, e);
+    if (!(room >= 0.5))
+        return HIDDEN;
+    return (unsigned char)fmin(GRADES - 1, room / 9 * (GRADES - 1));
 }
 
 static void stroke_edges(struct page *page, const struct hm_mesh *m,
-                         const struct hm_mesh_edge *edges, size_t n, const int32_t *class,
-                         enum mesh_fill fill, enum stress stress)
+                         const struct hm_mesh_edge *edges, size_t n, const unsigned char *grade,
+                         int wanted)
 {
     const struct view *v = &page->view;
     int pending = 0;
     for (size_t k = 0; k < n; k++) {
         const struct hm_node *a = &m->node[edges[k].a], *b = &m->node[edges[k].b];
-        if (stress_of(&edges[k], class, fill) != stress || fmax(a->x, b->x) < v->w ||
-            fmin(a->x, b->x) > v->e || fmax(a->y, b->y) < v->s || fmin(a->y, b->y) > v->n)
+        if (grade[k] != wanted || fmax(a->x, b->x) < v->w || fmin(a->x, b->x) > v->e ||
+            fmax(a->y, b->y) < v->s || fmin(a->y, b->y) > v->n)
             continue;
         cairo_move_to(page->cr, view_x(v, a->x), view_y(v, a->y));
         cairo_line_to(page->cr, view_x(v, b->x), view_y(v, b->y));
@@ -209,18 +252,7 @@ static void stroke_edges(struct page *page, const struct hm_mesh *m,
     cairo_stroke(page->cr);
 }
 
-/* Mean length of an edge on the page. */
-static double mean_edge(const struct page *page, const struct hm_mesh *m,
-                        const struct hm_mesh_edge *edges, size_t n)
-{
-    double sum = 0;
-    for (size_t k = 0; k < n; k++)
-        sum += hypot(m->node[edges[k].b].x - m->node[edges[k].a].x,
-                     m->node[edges[k].b].y - m->node[edges[k].a].y);
-    return n ? sum / (double)n * page->view.scale : 0;
-}
-
-static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const int32_t *class,
+static enum hm_err draw_edges(struct page *page, const struct hm_mesh *m, const int32_t *class,
                               enum mesh_fill fill, struct hm_diag *d)
 {
     struct hm_mesh_edge *edges;
@@ -228,34 +260,25 @@ static enum hm_err draw_wires(struct page *page, const struct hm_mesh *m, const 
     enum hm_err err = hm_mesh_edges(m, &edges, &n, d);
     if (err)
         return err;
-    /* fine meshes get finer and fainter wires, so that they do not turn black */
-    const double length = mean_edge(page, m, edges, n), em = page->em;
-    const double width = fmin(0.05 * em, fmax(0.25, 0.06 * length));
-    set_colour(page, INK, fmin(0.75, fmax(0.15, length / 16)));
-    cairo_set_line_width(page->cr, width);
-    cairo_set_antialias(page->cr, length < 2 ? CAIRO_ANTIALIAS_FAST : CAIRO_ANTIALIAS_DEFAULT);
-    stroke_edges(page, m, edges, n, class, fill, WIRE);
-    cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_DEFAULT);
-    set_colour(page, ROUGH, 0.9);
-    cairo_set_line_width(page->cr, fmax(2 * width, 0.05 * em));
-    stroke_edges(page, m, edges, n, class, fill, SEAM);
-    set_colour(page, INK, 1);
-    cairo_set_line_width(page->cr, fmax(2 * width, 0.08 * em));
-    stroke_edges(page, m, edges, n, class, fill, BORDER);
+    unsigned char *grade = hm_alloc(n, sizeof *grade);
+    for (size_t k = 0; k < n && grade; k++)
+        grade[k] = grade_of(page, m, &edges[k], class, fill);
+    const double em = page->em;
+    for (int g = 0; g <= BORDER && grade; g++) {
+        const double strength = fmin(1, g / (GRADES - 1.0));
+        const double wire = em * (0.02 + 0.025 * strength);
+        set_colour(page, INK, g < GRADES ? 0.05 + 0.55 * strength : 0.9);
+        cairo_set_line_width(page->cr, g == BORDER ? 0.11 * em : g == SEAM ? 0.06 * em : wire);
+        stroke_edges(page, m, edges, n, grade, g);
+    }
+    err = grade ? HM_OK : hm_fail_memory(d);
+    free(grade);
     free(edges);
-    return HM_OK;
-}
-
-static int64_t count_visible(const struct page *page, const struct hm_mesh *m)
-{
-    int64_t count = 0;
-    for (size_t k = 0; k < m->nelems; k++)
-        count += is_visible(&page->view, m, &m->elem[k]);
-    return count;
+    return err;
 }
 
 enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill fill,
-                      struct range heights, struct hm_diag *d)
+                      const struct scale *heights, struct hm_diag *d)
 {
     int32_t *class = hm_alloc(m->nelems, sizeof *class);
     if (!class)
@@ -270,10 +293,10 @@ enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill
     if (fill != FILL_WIRE)
         fill_elements(page, m, class, fill, owned);
     if (fill != FILL_REGION)
-        legend_add(page, MARK_LINE, INK, count_visible(page, m), "Elements");
+        legend_add(page, MARK_LINE, INK, (int64_t)view_elements(&page->view, m), "Elements");
     if (fill == FILL_Z)
-        legend_bar(page, RAMP_HEIGHT, heights, "Height (m)");
-    enum hm_err err = draw_wires(page, m, class, fill, d);
+        legend_bar(page, RAMP_HEIGHT, heights);
+    enum hm_err err = draw_edges(page, m, class, fill, d);
     free(class);
     page->has_ground |= fill != FILL_WIRE;
     return err;

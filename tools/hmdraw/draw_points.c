@@ -56,22 +56,12 @@ static double dot_radius(const struct page *page, size_t n)
     return fmin(0.2 * page->em, fmax(0.5, 0.45 * distance));
 }
 
-static size_t count_inside(const struct view *v, const struct hm_points *p)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const double *row = &p->v[i * p->stride];
-        n += row[0] >= v->w && row[0] <= v->e && row[1] >= v->s && row[1] <= v->n;
-    }
-    return n;
-}
-
-enum hm_err draw_points(struct page *page, const struct hm_points *p, struct range heights,
+enum hm_err draw_points(struct page *page, const struct hm_points *p, const struct scale *heights,
                         struct hm_diag *d)
 {
     const int residual = hm_header_field(&p->header, "residual");
     const struct view *v = &page->view;
-    size_t inside = count_inside(v, p);
+    size_t inside = view_points(v, p);
     if (!inside)
         return HM_OK;
     struct image image;
@@ -93,7 +83,7 @@ enum hm_err draw_points(struct page *page, const struct hm_points *p, struct ran
             count[class]++;
             c = residual_colour(class);
         } else if (!isnan(row[2])) {
-            c = ramp_colour(RAMP_HEIGHT, range_part(heights, row[2]));
+            c = ramp_colour(RAMP_HEIGHT, range_part(heights->range, row[2]));
         }
         /* what lies beside the mesh shall not drown what lies on it */
         bool aside = residual >= 0 && isnan(row[residual]);
@@ -102,7 +92,7 @@ enum hm_err draw_points(struct page *page, const struct hm_points *p, struct ran
     enter_residuals(page, count);
     if (residual < 0) {
         legend_add(page, MARK_DOT, GREY, (int64_t)inside, "Measurements");
-        legend_bar(page, RAMP_HEIGHT, heights, "Height (m)");
+        legend_bar(page, RAMP_HEIGHT, heights);
     }
     image_paint(&image, page);
     return HM_OK;

@@ -6,6 +6,25 @@
 #include <stdio.h>
 #include <string.h>
 
+struct ticks ticks_within(struct range range, double step)
+{
+    if (!(range.hi > range.lo))
+        return (struct ticks){1, range.lo, 1};
+    struct ticks t = {.step = nice_step(step)};
+    t.first = ceil(range.lo / t.step);
+    t.n = (int)fmin(100, floor(range.hi / t.step) - t.first + 1);
+    return t;
+}
+
+double tick_print(const struct ticks *ticks, int k, char text[32])
+{
+    double value = (ticks->first + k) * ticks->step, digits = 10;
+    if (value != 0)
+        digits = fmax(10, floor(log10(fabs(value))) - floor(log10(fabs(ticks->step))) + 1);
+    snprintf(text, 32, "%.*g", (int)fmin(15, digits), value);
+    return value;
+}
+
 double nice_step(double v)
 {
     double power = 1;
@@ -54,13 +73,13 @@ void legend_add(struct page *page, enum legend_mark mark, struct rgb colour, int
     item->count += count;
 }
 
-void legend_bar(struct page *page, enum ramp ramp, struct range range, const char *text)
+void legend_bar(struct page *page, enum ramp ramp, const struct scale *scale)
 {
-    struct legend_item *item = find(page, MARK_BAR, text);
+    struct legend_item *item = find(page, MARK_BAR, scale->title);
     if (!item)
         return;
     item->ramp = ramp;
-    item->range = range;
+    item->range = scale->range;
     item->count = -1;
 }
 
@@ -132,11 +151,10 @@ static double draw_bar(struct page *page, const struct legend_item *item, double
     set_colour(page, INK, 1);
     cairo_set_line_width(cr, 0.05 * em);
     cairo_stroke(cr);
-    double step = r.hi > r.lo ? nice_step((r.hi - r.lo) / 4) : 1;
-    for (double v = ceil(r.lo / step) * step; v <= r.hi; v += step) {
+    const struct ticks ticks = ticks_within(r, r.hi / 4 - r.lo / 4);
+    for (int k = 0; k < ticks.n; k++) {
         char text[32];
-        double at = top + height * (1 - range_part(r, v));
-        snprintf(text, sizeof text, "%.6g", fabs(v) < step / 2 ? 0 : v);
+        double at = top + height * (1 - range_part(r, tick_print(&ticks, k, text)));
         cairo_move_to(cr, x + 1.8 * em, at);
         cairo_line_to(cr, x + 2.1 * em, at);
         cairo_stroke(cr);
@@ -162,7 +180,7 @@ static void draw_scale(struct page *page, double x, double y)
 {
     const double em = page->em, length = nice_step(11 * em / page->view.scale);
     const double part = length * page->view.scale / 4;
-    char text[32];
+    char text[64];
     cairo_set_line_width(page->cr, 0.06 * em);
     for (int k = 0; k < 4; k++) {
         cairo_rectangle(page->cr, x + k * part, y - 0.4 * em, part, 0.4 * em);
@@ -171,10 +189,10 @@ static void draw_scale(struct page *page, double x, double y)
         cairo_stroke(page->cr);
     }
     draw_text(page, x, y - 0.8 * em, 0.9 * em, "0");
-    if (length >= 1000)
+    if (length >= 1000 && !strcmp(page->unit, "m"))
         snprintf(text, sizeof text, "%.6g km", length / 1000);
     else
-        snprintf(text, sizeof text, "%.6g m", length);
+        snprintf(text, sizeof text, "%.6g %s", length, page->unit);
     draw_text(page, x + 4 * part - 0.5 * em, y - 0.8 * em, 0.9 * em, text);
 }
 

@@ -4,7 +4,7 @@
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Of the text size: width of the panel; margins beside the map for coordinates. */
@@ -105,6 +105,9 @@ enum hm_err page_close(struct page *page, cairo_write_func_t write, void *closur
         reduce_colours(page->surface, page->levels);
     if (!err && page->format == FORMAT_PNG)
         err = check(cairo_surface_write_to_png_stream(page->surface, write, closure), d);
+    free(page->ground);
+    if (page->relief.surface)
+        cairo_surface_destroy(page->relief.surface);
     cairo_surface_finish(page->surface);
     if (!err)
         err = check(cairo_surface_status(page->surface), d);
@@ -121,32 +124,29 @@ static void tick(struct page *page, double x, double y, double dx, double dy)
     cairo_stroke(page->cr);
 }
 
-/* A coordinate at its tick, centred; left out where it would reach beyond the frame. `turned` runs
+/* A coordinate at its tick, centred, or moved so far that it stays within the frame. `turned` runs
  * upwards, along the left side. */
-static void draw_coordinate(struct page *page, double value, bool turned)
+static void draw_coordinate(struct page *page, double value, const char *text, bool turned)
 {
     const struct view *v = &page->view;
     const double size = 0.8 * page->em, length = 0.35 * page->em;
     const double at = round(turned ? view_y(v, value) : view_x(v, value)) + 0.5;
     const double lo = turned ? v->y : v->x, hi = lo + (turned ? v->height : v->width);
     cairo_text_extents_t box;
-    char text[32];
-    snprintf(text, sizeof text, "%.10g", value);
     cairo_set_font_size(page->cr, size);
     cairo_text_extents(page->cr, text, &box);
-    double half = box.x_advance / 2;
+    const double half = box.x_advance / 2;
+    const double middle = fmin(fmax(at, lo + half), hi - half);
     if (turned)
         tick(page, v->x, at, -length, 0);
     else
         tick(page, at, v->y + v->height, 0, length);
-    if (at - half < lo || at + half > hi)
-        return;
     cairo_save(page->cr);
     if (turned) {
-        cairo_translate(page->cr, v->x - 0.8 * page->em, at + half);
+        cairo_translate(page->cr, v->x - 0.8 * page->em, middle + half);
         cairo_rotate(page->cr, -acos(0));
     } else {
-        cairo_translate(page->cr, at - half, v->y + v->height + 1.5 * page->em);
+        cairo_translate(page->cr, middle - half, v->y + v->height + 1.5 * page->em);
     }
     draw_text(page, 0, 0, size, text);
     cairo_restore(page->cr);
@@ -155,11 +155,16 @@ static void draw_coordinate(struct page *page, double value, bool turned)
 static void draw_coordinates(struct page *page)
 {
     const struct view *v = &page->view;
-    const double step = nice_step(fmax(9 * page->em, v->width / 6) / v->scale);
-    for (double x = ceil(v->w / step); x * step <= v->e; x++)
-        draw_coordinate(page, x * step, false);
-    for (double y = ceil(v->s / step); y * step <= v->n; y++)
-        draw_coordinate(page, y * step, true);
+    const double step = fmax(9 * page->em, v->width / 6) / v->scale;
+    for (int side = 0; side < 2; side++) {
+        struct range range = side ? (struct range){v->s, v->n} : (struct range){v->w, v->e};
+        struct ticks ticks = ticks_within(range, step);
+        for (int k = 0; k < ticks.n; k++) {
+            char text[32];
+            double value = tick_print(&ticks, k, text);
+            draw_coordinate(page, value, text, side);
+        }
+    }
 }
 
 void page_furnish(struct page *page, const char *title)
@@ -222,13 +227,36 @@ void image_put(struct image *image, int64_t x, int64_t y, struct rgb c, double a
          channel(c.b * alpha);
 }
 
+static void set_source(struct page *page, const struct image *image)
+{
+    cairo_translate(page->cr, page->view.x, page->view.y);
+    cairo_scale(page->cr, 1 / image->zoom, 1 / image->zoom);
+    cairo_set_source_surface(page->cr, image->surface, 0, 0);
+}
+
+struct rgb page_ground(const struct page *page, double x, double y)
+{
+    const struct view *v = &page->view;
+    if (!page->ground || !view_holds(v, x, y))
+        return PAPER;
+    int64_t i = (int64_t)(view_x(v, x) - v->x) / GROUND_CELL;
+    int64_t j = (int64_t)(view_y(v, y) - v->y) / GROUND_CELL;
+    return page->ground[j * ((int64_t)v->width / GROUND_CELL + 1) + i];
+}
+
+void page_shade(struct page *page)
+{
+    cairo_save(page->cr);
+    set_source(page, &page->relief);
+    cairo_fill(page->cr);
+    cairo_restore(page->cr);
+}
+
 void image_paint(struct image *image, struct page *page)
 {
     cairo_surface_mark_dirty(image->surface);
     cairo_save(page->cr);
-    cairo_translate(page->cr, page->view.x, page->view.y);
-    cairo_scale(page->cr, 1 / image->zoom, 1 / image->zoom);
-    cairo_set_source_surface(page->cr, image->surface, 0, 0);
+    set_source(page, image);
     cairo_paint(page->cr);
     cairo_restore(page->cr);
     cairo_surface_destroy(image->surface);

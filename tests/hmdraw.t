@@ -84,16 +84,16 @@ END
 
 # --- formats ---
 magic() { head -c 4 "$1" | od -An -c | tr -d ' \n'; }
-ok "PNG of everything" hmdraw -o all.png -T "All kinds" dem.asc points.xyz lines.txt mesh.hm
+ok "PNG of everything" hmdraw -s 800 -o all.png -T "All kinds" dem.asc points.xyz lines.txt mesh.hm
 [ "$(magic all.png)" = '211PNG' ]
 report $? "it is a PNG"
-ok "SVG by its suffix" hmdraw -o all.svg -T "All <kinds> & more" dem.asc points.xyz lines.txt mesh.hm
+ok "SVG by its suffix" hmdraw -s 800 -o all.svg -T "All <kinds> & more" dem.asc points.xyz lines.txt mesh.hm
 if command -v xmllint >/dev/null; then
     ok "the SVG is well formed" xmllint --noout --huge all.svg
 else
     skip "no xmllint"
 fi
-ok "PDF by its suffix" hmdraw -o all.pdf dem.asc points.xyz lines.txt mesh.hm
+ok "PDF by its suffix" hmdraw -s 800 -o all.pdf dem.asc points.xyz lines.txt mesh.hm
 [ "$(magic all.pdf)" = '%PDF' ]
 report $? "it is a PDF"
 hmdraw -t svg mesh.hm >typed.svg
@@ -122,7 +122,7 @@ same "standard input" stdin.png operand.png
 
 # --- every kind alone ---
 for file in dem.asc points.xyz residuals.hm lines.txt mesh.hm; do
-    ok "alone: $file" hmdraw -o one.png $file
+    ok "alone: $file" hmdraw -s 400 -o one.png $file
 done
 for fill in region wire z quality; do
     ok "mesh filled by $fill" hmdraw -f $fill -o $fill.png mesh.hm

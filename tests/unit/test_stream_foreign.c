@@ -163,6 +163,7 @@ static size_t make_las(char *b, int minor, int format, int extra, int count)
         put(p, (uint64_t)(100 * i), 4);
         put(p + 4, (uint64_t)-i, 4);
         put(p + 8, (uint64_t)i, 4);
+        put(p + 14, (uint64_t)(format < 6 ? 2 | 3 << 3 : 2 | 3 << 4), 1); /* the second of three */
         put(p + (format < 6 ? 15 : 16), (uint64_t)(format < 6 ? i % 32 : i % 256), 1);
         if (i % 5 == 4)
             p[15] = (char)(p[15] | (format < 6 ? 0x80 : 0x04));
@@ -182,9 +183,10 @@ static bool las_points_are_right(int count, int classes)
     for (int i = 0; i < count && good; i++) {
         if (i % 5 == 4)
             continue;
-        const double *v = p.v + 4 * n++;
-        good = n <= p.n && v[0] == (100 * i) * 0.01 + 500000 && v[1] == -i * 0.01 + 6e6 &&
-               v[2] == i * 0.001 + 0.5 && v[3] == i % classes;
+        const double *v = p.v + 6 * n++;
+        /* decimals to the last bit, as strtod reads them */
+        good = n <= p.n && v[0] == 500000 + i && v[1] == (600000000 - i) / 100.0 &&
+               v[2] == (500 + i) / 1000.0 && v[3] == i % classes && v[4] == 2 && v[5] == 3;
     }
     good = good && n == p.n && hm_reader_next(r, &h, &d) == HM_END;
     hm_points_free(&p);
@@ -229,6 +231,82 @@ static void test_las(void)
     refused("LAS behind points", b, n + 6, HM_EFORMAT, 0, "binary");
 }
 
+/* A record of the reference system put between header and points, and what the header says of it.
+ */
+static void says(const char *what, int number, const void *record, size_t n, const char *crs,
+                 const char *units)
+{
+    static char b[1 << 13];
+    enum { HEADER = 227, HEAD = 54 };
+    size_t size = make_las(b, 2, 3, 0, 3);
+    memmove(b + HEADER + HEAD + n, b + HEADER + HEAD, size - HEADER - HEAD);
+    put(b + 96, HEADER + HEAD + n, 4);
+    put(b + 100, 1, 4);
+    memcpy(b + HEADER + 2, "LASF_Projection", 15);
+    put(b + HEADER + 18, (uint64_t)number, 2);
+    put(b + HEADER + 20, n, 2);
+    memcpy(b + HEADER + HEAD, record, n);
+    spill(path, b, size + n);
+    struct hm_diag d = {0};
+    struct hm_reader *r;
+    struct hm_header h;
+    bool good = !hm_reader_open(&r, path, &d) && !hm_reader_next(r, &h, &d);
+    const char *got_crs = good ? hm_header_get(&h, "crs") : NULL;
+    const char *got_units = good ? hm_header_get(&h, "units") : NULL;
+    ok(good && !strcmp(got_crs ? got_crs : "", crs) && !strcmp(got_units ? got_units : "", units),
+       "%s: %s, %s", what, got_crs ? got_crs : "no crs", got_units ? got_units : "no units");
+    if (good)
+        hm_header_free(&h);
+    hm_reader_close(r);
+}
+
+static void says_wkt(const char *what, const char *wkt, const char *crs, const char *units)
+{
+    says(what, 2112, wkt, strlen(wkt) + 1, crs, units);
+}
+
+static void says_keys(const char *what, const int *key, size_t n, const char *crs,
+                      const char *units)
+{
+    char b[256];
+    for (size_t k = 0; k < n; k++)
+        put(b + 2 * k, (uint64_t)key[k], 2);
+    says(what, 34735, b, 2 * n, crs, units);
+}
+
+static void test_las_crs(void)
+{
+    says_keys("GeoTIFF keys",
+              (int[]){1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 25832, 3076, 0, 1, 9001}, 16,
+              "EPSG:25832", "m m m 1 1 1");
+    says_keys("feet, heights in metres",
+              (int[]){1, 1, 0, 3, 3072, 0, 1, 2926, 3076, 0, 1, 9003, 4099, 0, 1, 9001}, 16,
+              "EPSG:2926", "ftUS ftUS m 1 1 1");
+    says_keys("longitude and latitude", (int[]){1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326}, 12,
+              "EPSG:4326", "degree degree m 1 1 1");
+    says_keys("more keys promised than there are", (int[]){1, 1, 0, 999, 3072, 0, 1, 2154}, 8,
+              "EPSG:2154", "");
+    says_keys("a name out of reach", (int[]){1, 1, 0, 1, 1026, 34737, 60000, 60000}, 8, "", "");
+    says_wkt("WKT",
+             "PROJCS[\"RGF93 / Lambert-93\",GEOGCS[\"RGF93\",DATUM[\"x\",SPHEROID[\"GRS 1980\","
+             "6378137,298.257]],UNIT[\"degree\",0.0174],AUTHORITY[\"EPSG\",\"4171\"]],"
+             "UNIT[\"metre\",1],AXIS[\"X\",EAST],AUTHORITY[\"EPSG\",\"2154\"]]",
+             "EPSG:2154", "m m m 1 1 1");
+    says_wkt("WKT, compound",
+             "COMPD_CS[\"both\",PROJCS[\"Oregon, with ] and (\",GEOGCS[\"NAD83\"],"
+             "UNIT[\"foot\",0.3048]],\n VERT_CS[\"NAVD88\",UNIT[\"US survey foot\","
+             "0.3048006096012192]]]",
+             "Oregon, with ] and (", "ft ft ftUS 1 1 1");
+    says_wkt("WKT 2",
+             "COMPOUNDCRS[\"a\",PROJCRS[\"b\",BASEGEOGCRS[\"c\",ID[\"EPSG\",4258]],"
+             "LENGTHUNIT[\"metre\",1],ID[\"EPSG\",25832]],VERTCRS[\"h\",LENGTHUNIT[\"metre\",1]]]",
+             "EPSG:25832", "m m m 1 1 1");
+    says_wkt("WKT of longitude and latitude", "GEOGCS[\"WGS 84\",AUTHORITY[\"EPSG\",\"4326\"]]",
+             "EPSG:4326", "degree degree m 1 1 1");
+    says_wkt("WKT cut off", "PROJCS[\"x\",UNIT[\"metre\",1", "x", "");
+    says_wkt("no WKT at all", "][(\"", "", "");
+}
+
 static void test_compressed(void)
 {
     refused("gzip", "\x1f\x8b\x08\0\0\0\0\0", 8, HM_EFORMAT, 0, "gunzip");
@@ -243,6 +321,7 @@ int main(void)
     test_ascii_grid();
     test_2dm();
     test_las();
+    test_las_crs();
     test_compressed();
     end_files();
     return done();

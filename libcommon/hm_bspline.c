@@ -109,28 +109,6 @@ static double side_weight(int degree)
     return degree == 1 ? 0 : degree == 2 ? 1.0 / 8 : 1.0 / 6;
 }
 
-void hm_bspline_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv)
-{
-    double side = side_weight(s->degree), middle = 1 - 2 * side;
-    size_t dim = s->dim, row = (s->n + 2) * dim;
-    const double *d = hm_bsurf_at(s, 0, (int64_t)j);
-    for (size_t k = 0; k < s->n * dim; k++) {
-        const double *before = d + k - row, *here = d + k, *behind = d + k + row;
-        double sum[3], slope[3];
-        const double *const three[3] = {before, here, behind};
-        for (int r = 0; r < 3; r++) {
-            const double *c = three[r];
-            sum[r] = side * (*(c - dim) + c[dim]) + middle * *c;
-            slope[r] = (c[dim] - *(c - dim)) / 2;
-        }
-        point[k] = side * (sum[0] + sum[2]) + middle * sum[1];
-        if (du)
-            du[k] = side * (slope[0] + slope[2]) + middle * slope[1];
-        if (dv)
-            dv[k] = (sum[2] - sum[0]) / 2;
-    }
-}
-
 /* --- dragging --------------------------------------------------------------------------------
  *
  * At the Greville sites the basis has the values side, middle, side in either direction (quadratic:
@@ -228,8 +206,8 @@ static double drag_once(struct drag *g, int threads)
     return rest;
 }
 
-enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations, int threads,
-                            double *rest, struct hm_diag *d)
+enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations, double tolerance,
+                            int threads, double *rest, struct hm_diag *d)
 {
     struct drag g = {.s = s, .z = z, .side = side_weight(s->degree), .width = s->n * s->dim};
     g.middle = 1 - 2 * g.side;
@@ -240,8 +218,9 @@ enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations,
     enum hm_err err = g.border && g.work && g.rest ? HM_OK : hm_fail_memory(d);
     if (!err) {
         g.move = true;
-        for (int k = 0; k < iterations; k++)
-            drag_once(&g, threads);
+        double moved = INFINITY;
+        for (int k = 0; k < iterations && moved > tolerance; k++)
+            moved = drag_once(&g, threads);
         g.move = false;
         if (rest)
             *rest = drag_once(&g, threads);

@@ -24,15 +24,12 @@ void hm_bspline_weights(int degree, double u, int64_t *first, double w[4], doubl
 void hm_bspline_eval(const struct hm_bsurf *s, double u, double v, double *point, double *du,
                      double *dv);
 
-/* The surface at the Greville sites of row j: n × dim numbers, and on request the derivatives there
- * (NULL: not; the mean of both sides for degree 1, which has an edge there). */
-void hm_bspline_row(const struct hm_bsurf *s, size_t j, double *point, double *du, double *dv);
-
 /* Dragging (progressive-iterative approximation): `iterations` times D += Z - B·D·Bᵀ, where Z
  * (n × m × dim) is what the surface should pass through at the Greville sites; the ring is made
- * anew each time. Where Z is NaN the control point stays. Returns the largest remaining distance in
- * any coordinate in *rest (may be NULL). */
-enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations, int threads,
-                            double *rest, struct hm_diag *d);
+ * anew each time. Ends sooner when an iteration has moved no coordinate by more than `tolerance`.
+ * Where Z is NaN the control point stays. Returns the largest remaining distance in any coordinate
+ * in *rest (may be NULL). */
+enum hm_err hm_bspline_drag(struct hm_bsurf *s, const double *z, int iterations, double tolerance,
+                            int threads, double *rest, struct hm_diag *d);
 
 #endif

@@ -91,9 +91,13 @@ enum hm_err hm_bsurf_set_missing(struct hm_bsurf *s, const double *z, struct hm_
     s->fringe->state = hm_alloc0((s->n + 2) * (s->m + 2), sizeof *s->fringe->state);
     if (!s->fringe->state)
         return hm_fail_memory(d);
-    for (k = 0; k < nodes; k++)
+    for (k = 0; k < nodes; k++) {
+        size_t at = position(s, (int64_t)(k % s->n), (int64_t)(k / s->n));
         if (!isnan(z[k]))
-            s->fringe->state[position(s, (int64_t)(k % s->n), (int64_t)(k / s->n))] = DATA;
+            s->fringe->state[at] = DATA;
+        for (size_t c = 0; isnan(z[k]) && c < s->dim; c++)
+            s->d[at * s->dim + c] = 0;
+    }
     return find_fringe(s, d);
 }
 

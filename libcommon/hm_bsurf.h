@@ -32,8 +32,9 @@ static inline double *hm_bsurf_at(const struct hm_bsurf *s, int64_t i, int64_t j
     return s->d + ((size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1)) * s->dim;
 }
 
-/* Declare the control points missing for which z (n × m, row after row) is NaN; once, at first.
- * When there are none this does nothing. */
+/* Declare the control points missing for which z (n × m, row after row) is NaN, and set them
+ * to 0 (they have weight 0 wherever the surface counts); once, at first. When there are none this
+ * does nothing. */
 enum hm_err hm_bsurf_set_missing(struct hm_bsurf *s, const double *z, struct hm_diag *d);
 
 /* Make the ring, and the fringe of missing control points, anew from the net: to be called after

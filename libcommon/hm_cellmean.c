@@ -156,23 +156,46 @@ static void overlap(int64_t start, size_t count, int64_t *low, int64_t *high)
     *high = start + SIDE < (int64_t)count ? start + SIDE : (int64_t)count;
 }
 
-void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z)
+/* The nodes of `a` that are cells of a tile, and the tile's first cell, both counted in `a`. */
+struct part {
+    int64_t left, bottom, i0, i1, j0, j1;
+};
+
+static struct part part_in(const struct tile *t, const struct hm_anchor *a)
+{
+    struct part p = {.left = t->ti * SIDE - a->i0, .bottom = t->tj * SIDE - a->j0};
+    overlap(p.left, a->nx, &p.i0, &p.i1);
+    overlap(p.bottom, a->ny, &p.j0, &p.j1);
+    return p;
+}
+
+/* out[node] = sum / count or, without sums, count; `empty` where there is no point. */
+static void spread(const struct hm_cellmean *c, const struct hm_anchor *a, bool sums, double empty,
+                   double *out)
 {
     for (size_t k = 0; k < a->nx * a->ny; k++)
-        z[k] = NAN;
+        out[k] = empty;
     for (size_t k = 0; k < c->ntiles; k++) {
         const struct tile *t = c->tile[k];
-        int64_t left = t->ti * SIDE - a->i0, bottom = t->tj * SIDE - a->j0;
-        int64_t i0, i1, j0, j1;
-        overlap(left, a->nx, &i0, &i1);
-        overlap(bottom, a->ny, &j0, &j1);
-        for (int64_t j = j0; j < j1; j++)
-            for (int64_t i = i0; i < i1; i++) {
-                size_t cell = (size_t)((j - bottom) * SIDE + (i - left));
+        struct part p = part_in(t, a);
+        for (int64_t j = p.j0; j < p.j1; j++)
+            for (int64_t i = p.i0; i < p.i1; i++) {
+                size_t cell = (size_t)((j - p.bottom) * SIDE + (i - p.left));
+                double n = (double)t->count[cell];
                 if (t->count[cell])
-                    z[(size_t)j * a->nx + (size_t)i] = t->sum[cell] / (double)t->count[cell];
+                    out[(size_t)j * a->nx + (size_t)i] = sums ? t->sum[cell] / n : n;
             }
     }
+}
+
+void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z)
+{
+    spread(c, a, true, NAN, z);
+}
+
+void hm_cellmean_counts(const struct hm_cellmean *c, const struct hm_anchor *a, double *count)
+{
+    spread(c, a, false, 0, count);
 }
 
 enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anchor *a, double **xyz,

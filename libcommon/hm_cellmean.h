@@ -21,6 +21,9 @@ enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z,
 /* Means of the nodes of `a`, row after row: z has a->nx * a->ny numbers, NaN where no point was. */
 void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z);
 
+/* Number of points in the cells of the nodes of `a`. */
+void hm_cellmean_counts(const struct hm_cellmean *c, const struct hm_anchor *a, double *count);
+
 /* The mean points themselves, x, y, z, of the cells of `a` that hold any, tile by tile as the tiles
  * were met. *xyz is malloc'd. Needs `places`. */
 enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anchor *a, double **xyz,

@@ -1,4 +1,4 @@
-/* hm_lascrs: reference system and units of a LAS file, from its variable length records. Layer 1.
+/* hm_lascrs: reference system and units of a LAS file, from its variable length records. Layer 5.
  *
  * Files of version 1.4 have them as WKT (OGC 01-009 or WKT 2), others as GeoTIFF keys. Only what a
  * header says in one line is taken: the EPSG code, else the name, and the units.

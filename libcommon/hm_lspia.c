@@ -18,6 +18,7 @@ struct lspia {
     struct sample *sample; /* by the row of control points below them, then by u, v, z */
     size_t *start;         /* a row: its first sample; m + 1 */
     double *sum;           /* a band: sum of squares, and the number of samples */
+    double *moved;         /* a band: the longest way of a control point */
     bool *failed;          /* a band */
 };
 
@@ -26,13 +27,18 @@ static size_t band_end(const struct lspia *l, size_t band)
     return (band + 1) * BAND < l->s->m ? (band + 1) * BAND : l->s->m;
 }
 
-/* Row under a sample, or m when it is outside of the net. */
-static size_t row_of(const struct hm_bsurf *s, const double *uvz)
+static struct sample sample_at(const struct hm_lattice *lattice, const double *xyz)
 {
-    if (!(uvz[0] >= 0 && uvz[0] <= (double)(s->n - 1) && uvz[1] >= 0 &&
-          uvz[1] <= (double)(s->m - 1)))
+    return (struct sample){(xyz[0] - lattice->x0) / lattice->dx,
+                           (xyz[1] - lattice->y0) / lattice->dy, xyz[2], 0};
+}
+
+/* Row under a sample, or m when it is outside of the net. */
+static size_t row_of(const struct hm_bsurf *s, const struct sample *p)
+{
+    if (!(p->u >= 0 && p->u <= (double)(s->n - 1) && p->v >= 0 && p->v <= (double)(s->m - 1)))
         return s->m;
-    return (size_t)uvz[1];
+    return (size_t)p->v;
 }
 
 static int by_place(const void *pa, const void *pb)
@@ -46,25 +52,30 @@ static int by_place(const void *pa, const void *pb)
 }
 
 /* In an order that does not depend on that of the measurements: nor will rounding in the sums. */
-static enum hm_err sort_samples(struct lspia *l, const double *uvz, size_t n, struct hm_diag *d)
+static enum hm_err sort_samples(struct lspia *l, const struct hm_anchor *a, const double *xyz,
+                                size_t n, struct hm_diag *d)
 {
     size_t m = l->s->m;
+    const struct hm_lattice lattice = hm_anchor_lattice(a);
     l->sample = hm_alloc(n, sizeof *l->sample);
     l->start = hm_alloc0(m + 2, sizeof *l->start);
     if (!l->sample || !l->start)
         return hm_fail_memory(d);
-    for (size_t k = 0; k < n; k++)
-        l->start[row_of(l->s, uvz + 3 * k) + 1]++;
+    for (size_t k = 0; k < n; k++) {
+        struct sample p = sample_at(&lattice, xyz + 3 * k);
+        l->start[row_of(l->s, &p) + 1]++;
+    }
     for (size_t j = 0; j < m; j++)
         l->start[j + 1] += l->start[j];
     size_t *next = hm_alloc(m + 1, sizeof *next);
     if (!next)
         return hm_fail_memory(d);
     memcpy(next, l->start, (m + 1) * sizeof *next);
-    for (size_t k = 0; k < n; k++, uvz += 3) {
-        size_t row = row_of(l->s, uvz);
+    for (size_t k = 0; k < n; k++) {
+        struct sample p = sample_at(&lattice, xyz + 3 * k);
+        size_t row = row_of(l->s, &p);
         if (row < m)
-            l->sample[next[row]++] = (struct sample){uvz[0], uvz[1], uvz[2], 0};
+            l->sample[next[row]++] = p;
     }
     free(next);
     for (size_t j = 0; j < m; j++)
@@ -88,18 +99,24 @@ static bool is_covered(const struct hm_bsurf *s, const struct sample *p)
     return true;
 }
 
+static double residual(const struct hm_bsurf *s, const struct sample *p)
+{
+    double z;
+    if (!is_covered(s, p))
+        return NAN;
+    hm_bspline_eval(s, p->u, p->v, &z, NULL, NULL);
+    return p->z - z;
+}
+
 static void find_residuals(void *arg, size_t band)
 {
     const struct lspia *l = arg;
     double squares = 0, count = 0;
     for (size_t k = l->start[band * BAND]; k < l->start[band_end(l, band)]; k++) {
         struct sample *p = &l->sample[k];
-        p->rest = NAN;
-        if (!is_covered(l->s, p))
+        p->rest = residual(l->s, p);
+        if (isnan(p->rest))
             continue;
-        double z;
-        hm_bspline_eval(l->s, p->u, p->v, &z, NULL, NULL);
-        p->rest = p->z - z;
         squares += p->rest * p->rest;
         count++;
     }
@@ -146,11 +163,14 @@ static void move_band(void *arg, size_t band)
     for (size_t k = l->start[first]; k < l->start[last]; k++)
         if (!isnan(l->sample[k].rest))
             spread(s, &l->sample[k], (int64_t)start, (int64_t)end, sums);
+    l->moved[band] = 0;
     for (size_t j = start; j < end; j++)
         for (size_t i = 0; i < s->n; i++) {
             const double *sum = sums + 2 * ((j - start) * s->n + i);
-            if (sum[1] > 0 && hm_bsurf_has_data(s, (int64_t)i, (int64_t)j))
-                *hm_bsurf_at(s, (int64_t)i, (int64_t)j) += sum[0] / sum[1];
+            if (!(sum[1] > 0 && hm_bsurf_has_data(s, (int64_t)i, (int64_t)j)))
+                continue;
+            *hm_bsurf_at(s, (int64_t)i, (int64_t)j) += sum[0] / sum[1];
+            l->moved[band] = fmax(l->moved[band], fabs(sum[0] / sum[1]));
         }
     free(sums);
 }
@@ -167,20 +187,34 @@ static double find_rms(struct lspia *l, size_t bands, int threads)
     return count > 0 ? sqrt(squares / count) : 0;
 }
 
-enum hm_err hm_lspia(struct hm_bsurf *s, const double *uvz, size_t n, int iterations, int threads,
-                     double *rms, struct hm_diag *d)
+/* One iteration; *moved gets the longest way of a control point. */
+static enum hm_err iterate(struct lspia *l, size_t bands, int threads, double *moved,
+                           struct hm_diag *d)
+{
+    find_rms(l, bands, threads);
+    hm_thread_for(threads, bands, move_band, l);
+    *moved = 0;
+    for (size_t b = 0; b < bands; b++) {
+        if (l->failed[b])
+            return hm_fail_memory(d);
+        *moved = fmax(*moved, l->moved[b]);
+    }
+    return HM_OK;
+}
+
+enum hm_err hm_lspia(struct hm_bsurf *s, const struct hm_anchor *a, const double *xyz, size_t n,
+                     int iterations, double tolerance, int threads, double *rms, struct hm_diag *d)
 {
     struct lspia l = {.s = s};
     size_t bands = (s->m + BAND - 1) / BAND;
+    double moved = INFINITY;
     l.sum = hm_alloc(2 * bands, sizeof *l.sum);
+    l.moved = hm_alloc(bands, sizeof *l.moved);
     l.failed = hm_alloc0(bands, sizeof *l.failed);
-    enum hm_err err = l.sum && l.failed ? sort_samples(&l, uvz, n, d) : hm_fail_memory(d);
-    for (int k = 0; k < iterations && !err; k++) {
-        find_rms(&l, bands, threads);
-        hm_thread_for(threads, bands, move_band, &l);
-        for (size_t b = 0; b < bands && !err; b++)
-            err = l.failed[b] ? hm_fail_memory(d) : HM_OK;
-    }
+    enum hm_err err =
+        l.sum && l.moved && l.failed ? sort_samples(&l, a, xyz, n, d) : hm_fail_memory(d);
+    for (int k = 0; k < iterations && moved > tolerance && !err; k++)
+        err = iterate(&l, bands, threads, &moved, d);
     if (!err) {
         double rest = find_rms(&l, bands, threads);
         if (rms)
@@ -189,6 +223,36 @@ enum hm_err hm_lspia(struct hm_bsurf *s, const double *uvz, size_t n, int iterat
     free(l.sample);
     free(l.start);
     free(l.sum);
+    free(l.moved);
     free(l.failed);
     return err;
+}
+
+/* --- residuals alone --- */
+
+enum { CHUNK = 1 << 14 };
+
+struct judge {
+    const struct hm_bsurf *s;
+    struct hm_lattice lattice;
+    const double *xyz;
+    size_t n;
+    double *rest;
+};
+
+static void judge_chunk(void *arg, size_t chunk)
+{
+    const struct judge *g = arg;
+    size_t end = (chunk + 1) * CHUNK < g->n ? (chunk + 1) * CHUNK : g->n;
+    for (size_t k = chunk * CHUNK; k < end; k++) {
+        struct sample p = sample_at(&g->lattice, g->xyz + 3 * k);
+        g->rest[k] = row_of(g->s, &p) < g->s->m ? residual(g->s, &p) : NAN;
+    }
+}
+
+void hm_lspia_residuals(const struct hm_bsurf *s, const struct hm_anchor *a, const double *xyz,
+                        size_t n, int threads, double *rest)
+{
+    struct judge g = {s, hm_anchor_lattice(a), xyz, n, rest};
+    hm_thread_for(threads, (n + CHUNK - 1) / CHUNK, judge_chunk, &g);
 }

@@ -218,7 +218,7 @@ static enum hm_err drag_plane(struct plan *p, const struct hm_regular_how *how, 
         }
     double rest = INFINITY, good = 1e-6 * p->rough->size.along;
     for (int round = 0; !err && rest > good && round < 20; round++)
-        err = hm_bspline_drag(s, p->z, 8, how->threads, &rest, d);
+        err = hm_bspline_drag(s, p->z, 8, 0, how->threads, &rest, d);
     return err;
 }
 

@@ -112,6 +112,99 @@ bsgrid -d 5 missing.xyz >a.hm 2>err
 ok "points without height are counted" grep -q '1000 points without a height' err
 must_fail "--strict" 1 'without a height' bsgrid --strict -d 5 missing.xyz
 
+# medians: one wild point in a cell of three does not move it
+awk 'BEGIN { for (j = 0; j < 12; j++) for (i = 0; i < 12; i++) { print i, j, 3; print i + 0.2, j, (i + j) % 4 ? 1 : 99
+    print i, j - 0.3, 2 } }' >wild.xyz
+bsgrid -m median -n 0 -k 1 wild.xyz >a.hm 2>/dev/null
+true_that "median of cells" "$(awk '!/^#/ && $3 != 2 && $3 != 3' a.hm | wc -l) == 0 && $(grep -c ' 2$' a.hm) > 100"
+bsgrid -d 5 -m median -n 3 plane.xyz >a.hm 2>/dev/null
+ok "with the same nodes as means" sh -c 'bsgrid -d 5 -m mean -n 3 plane.xyz 2>/dev/null |
+    awk "{ print \$1, \$2, (\$3 == \"nan\") }" | grep -v prog >b; awk "{ print \$1, \$2, (\$3 == \"nan\") }" a.hm | grep -v prog | cmp - b'
+
+# tolerance: the same as many iterations that move nothing
+awk '{ $3 = sprintf("%.4f", $3 + ((NR * 7919) % 101 - 50) / 500) } { print }' wavy.xyz >noisy.xyz
+for fit in grid points; do
+    bsgrid -n 200 -f $fit -t 0.01 noisy.xyz 2>/dev/null | grep -v '^#' >a
+    bsgrid -n 200 -f $fit noisy.xyz 2>/dev/null | grep -v '^#' >b
+    bsgrid -n 1 -f $fit noisy.xyz 2>/dev/null | grep -v '^#' >c
+    true_that "a tolerance ends dragging to $fit in time" "$(paste a b c | awk '$3 != "nan" { d = ($3 - $6) ^ 2; e = ($9 - $6) ^ 2
+        if (d > m) m = d; if (e > n) n = e } END { print (m > 0 && m < n / 4) }')"
+done
+
+# oversampling: the same surface, more nodes; a plane stays one
+bsgrid -d 2 -O 4 --derivatives wavy.xyz 2>/dev/null >fine.hm
+bsgrid -d 2 --derivatives wavy.xyz 2>/dev/null >coarse.hm
+ok "the nodes of the grid come again" awk '!/^#/ { if (FNR == NR) { z[$1 " " $2] = $3 " " $4 " " $5 } else
+    if (z[$1 " " $2] != $3 " " $4 " " $5) exit 1 }' fine.hm coarse.hm
+true_that "with those between" "$(grep -c '^[^#]' fine.hm) > 15.5 * $(grep -c '^[^#]' coarse.hm)"
+true_that "whose differences are the derivatives" "$(awk '!/^#/ && $3 != "nan" && $4 != "nan" { if (y == $2 && $1 - x < 0.6) {
+    e = ($3 - z) / 0.5 - ($4 + d) / 2; if (e < 0) e = -e; if (e > m) m = e; n++ } x = $1; y = $2; z = $3; d = $4 }
+    END { print (n > 30000 ? m : 9) }' fine.hm) < 0.05"
+for degree in 1 2 3; do
+    bsgrid -d 2.5 -O 3 -k $degree plane.xyz >a.hm 2>/dev/null
+    true_that "a plane oversampled, degree $degree" "$(worst a.hm "$plane") < 1e-9 && $(grep -c '^[^#]' a.hm) > 12000"
+done
+bsgrid -d 2 -O 4 -R 1011.3/1030.2/2011/2030.7 wavy.xyz 2>/dev/null >window.hm
+ok "a window reaches to its border" sh -c "grep -q '^#origin 1011.5 2011$' window.hm && grep -q '^#size 38 40$' window.hm"
+
+# blunders: all found, nothing else, whatever the start grid
+awk 'NR % 997 == 500 { $3 += (NR % 2 ? 3 : -4); print >"wrong" } { print }' noisy.xyz >blunders.xyz
+awk 'NR % 997 != 500' noisy.xyz | awk '{ printf "%.3f %.3f %.9f\n", $1, $2, $3 }' | sort >right
+for options in "" "-m mean" "-m median" "-f points" "-n 3 -k 3"; do
+    bsgrid $options --clean clean.hm blunders.xyz >a.hm 2>err
+    awk '!/^#/ { printf "%.3f %.3f %.9f\n", $1, $2, $3 }' clean.hm | sort >kept
+    same "blunders out, all others kept: ${options:-tin}" right kept
+    ok "and counted" grep -q "$(grep -c . wrong) blunders left out" err
+done
+true_that "the surface is as without them" "$(bsgrid -B 6 blunders.xyz 2>/dev/null | worst - '3 * sin(x / 7) + 2 * cos(y / 9)') < 0.2"
+must_fail "--strict counts blunders" 1 'blunders' bsgrid --strict -B 6 blunders.xyz
+ok "a clean survey keeps all" sh -c 'bsgrid -B 6 plane.xyz 2>&1 >/dev/null | grep -q "^bsgrid: 3000 points"'
+awk 'BEGIN { for (j = 0; j < 60; j++) for (i = 0; i < 60; i++) print i / 2, j / 2, (i > 30 ? 5 : 0) + (i * 7 + j * 13) % 5 / 50 }' >cliff.xyz
+ok "a cliff is none" sh -c 'bsgrid -B 6 cliff.xyz 2>&1 >/dev/null | grep -q "^bsgrid: 3600 points"'
+ok "the rest is a stream with its history" sh -c "head -n 1 clean.hm | grep -q '^#hm 1 points' && tail -n 1 clean.hm | grep -q '^#end'"
+must_fail "a file that cannot be written" 2 'nowhere' bsgrid --clean nowhere/clean.hm blunders.xyz
+
+# a mask
+cat >mask.txt <<'END'
+> closed=1
+1010 2010
+1050 2010
+1050 2050
+1010 2050
+> closed=1 hole=1
+1020 2020
+1030.5 2020
+1030.5 2030
+1020 2030
+END
+bsgrid --mask mask.txt plane.xyz 2>/dev/null | awk '!/^#/ && $3 != "nan" { print $1, $2 }' >a
+awk 'BEGIN { for (y = 2010; y < 2050; y++) for (x = 1010; x < 1050; x++)
+    if (!(x >= 1020 && x < 1030.5 && y >= 2020 && y < 2030)) print x, y }' >b
+same "nodes within the outline, not in the hole" a b
+sed -n '/hole/,$p' mask.txt >hole.txt
+true_that "a hole alone" "$(bsgrid --mask hole.txt plane.xyz 2>/dev/null | grep -c nan) - $(bsgrid plane.xyz 2>/dev/null | grep -c nan) == 110"
+sed 's/closed=1//' mask.txt >open.txt
+must_fail "an open line as mask" 2 'line 1 of the mask is not closed' bsgrid --mask open.txt plane.xyz
+must_fail "points as mask" 2 'needs lines' bsgrid --mask plane.xyz plane.xyz
+
+# counts and density
+for options in "" "-m mean" "-B 6 -m mean"; do
+    bsgrid -d 5 $options --count --density wavy.xyz 2>/dev/null >a.hm
+    awk 'FILENAME == "wavy.xyz" { n[int($1 / 5 + 0.5) * 5 " " int($2 / 5 + 0.5) * 5]++; next } !/^#/ { k = 0
+        for (i = -5; i <= 5; i += 5) for (j = -5; j <= 5; j += 5) k += n[$1 + i " " $2 + j]
+        if ($4 != n[$1 " " $2] + 0 || ($5 - k / 225) ^ 2 > 1e-20) bad++ } END { exit bad || NR < 400 }' wavy.xyz a.hm
+    report $? "counts and densities are those of the points: ${options:-tin}"
+done
+ok "their units" grep -q '^#units m m m 1 1/m2$' a.hm
+
+# returns
+{ echo "#hm 1 points text"; echo "#fields x y z class return returns"; echo "#data"
+  awk '{ print $1, $2, $3 + 9, 2, 1, 2; print $1, $2, $3, 2, 2, 2 }' plane.xyz; echo "#end"; } >returns.hm
+bsgrid -d 2.5 --returns last returns.hm >a.hm 2>/dev/null
+true_that "only last returns" "$(worst a.hm "$plane") < 1e-9"
+must_fail "only returns: none" 2 'no points' bsgrid --returns only returns.hm
+must_fail "returns without the fields" 2 'fields return' bsgrid --returns first class.hm
+
 # pipes
 bsgrid -b -d 1 wavy.xyz 2>/dev/null | slope >a.hm
 bsgrid -d 1 wavy.xyz 2>/dev/null | slope >b.hm
@@ -139,6 +232,7 @@ must_fail "a window between nodes" 2 'no node' bsgrid -d 10 -R 1001/1002/2001/20
 must_fail "classes without a field" 2 'field class' bsgrid -c 2 plane.xyz
 must_fail "a class too large" 2 'classes' bsgrid -c 256 class.hm
 must_fail "degree 4" 2 'degree' bsgrid -k 4 plane.xyz
+must_fail "oversampling by 0" 2 '-O' bsgrid -O 0 plane.xyz
 must_fail "a grid for points" 2 'no points' bsgrid a.hm
 if [ -e /dev/full ]; then
     must_fail "a full disk" 2 'space|No space' sh -c 'bsgrid -d 1 wavy.xyz >/dev/full'

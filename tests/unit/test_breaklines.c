@@ -1,4 +1,5 @@
 /* Breaklines against an analytic bank, and the bookkeeping of lines: chaining, saddles, borders. */
+#include "hm_bsample.h"
 #include "hm_bspline.h"
 #include "hm_contour.h"
 #include "hm_lineedit.h"
@@ -64,9 +65,12 @@ static struct bank make_bank(double angle)
             start[j * SIZE + i] = height / (1 + exp(-(x * b.nx + y * b.ny) / scale));
             *hm_bsurf_at(&s, i, j) = start[j * SIZE + i];
         }
-    hm_bspline_drag(&s, start, 1, 1, NULL, NULL);
+    hm_bspline_drag(&s, start, 1, 0, 1, NULL, NULL);
+    struct hm_bsample *sample;
+    hm_bsample_new(&sample, &s, 1, NULL);
     for (size_t j = 0; j < SIZE; j++)
-        hm_bspline_row(&s, j, b.z + j * SIZE, NULL, NULL);
+        hm_bsample_row(sample, j, b.z + j * SIZE, NULL, NULL);
+    hm_bsample_free(sample);
     for (size_t j = 0; j < SIZE; j++) {
         const double *const rows[3] = {j > 0 ? b.z + (j - 1) * SIZE : NULL, b.z + j * SIZE,
                                        j + 1 < SIZE ? b.z + (j + 1) * SIZE : NULL};

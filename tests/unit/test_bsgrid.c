@@ -1,7 +1,9 @@
 /* Start grids against independent ways to the same heights: location in the triangulation, plain
  * sums, and brute force. */
 #include "hm_anchor.h"
+#include "hm_bsample.h"
 #include "hm_cellmean.h"
+#include "hm_cellsort.h"
 #include "hm_gapfill.h"
 #include "hm_gridtin.h"
 #include "hm_pred.h"
@@ -137,6 +139,56 @@ static void test_cellmean(void)
     hm_cellmean_free(c);
 }
 
+static int by_value(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+static void test_median(void)
+{
+    enum { MOST = 41, RUNS = 500 };
+    size_t wrong = 0;
+    for (size_t run = 0; run < RUNS; run++) {
+        double v[MOST], sorted[MOST];
+        size_t n = 1 + run % MOST;
+        for (size_t k = 0; k < n; k++)
+            v[k] = sorted[k] = floor(uniform() * (run % 3 ? 1000 : 4));
+        qsort(sorted, n, sizeof *sorted, by_value);
+        double want = (sorted[n / 2] + sorted[(n - 1) / 2]) / 2;
+        wrong += hm_cellsort_median(v, n) != want;
+    }
+    ok(wrong == 0, "medians by selection as by sorting");
+}
+
+/* Rows of samples against the evaluation of single places, to the border of the net. */
+static void test_bsample(int degree, int over)
+{
+    enum { N = 7, M = 5 };
+    struct hm_bsurf s;
+    struct hm_bsample *b;
+    static double z[400], zu[400], zv[400];
+    double worst = 0;
+    hm_bsurf_init(&s, degree, N, M, 1, NULL);
+    for (int64_t k = 0; k < N * M; k++)
+        *hm_bsurf_at(&s, k % N, k / N) = uniform();
+    hm_bsurf_extend(&s);
+    hm_bsample_new(&b, &s, over, NULL);
+    for (int j = 0; j <= (M - 1) * over; j++) {
+        hm_bsample_row(b, (size_t)j, z, zu, zv);
+        for (int i = 0; i <= (N - 1) * over; i++) {
+            double p, du, dv;
+            hm_bspline_eval(&s, (double)i / over, (double)j / over, &p, &du, &dv);
+            worst = fmax(worst, fabs(p - z[i]));
+            if (degree > 1) /* degree 1 has edges, where two derivatives meet */
+                worst = fmax(worst, fmax(fabs(du - zu[i]), fabs(dv - zv[i])));
+        }
+    }
+    near(worst, 0, 1e-13, "samples as by single evaluation");
+    hm_bsample_free(b);
+    hm_bsurf_free(&s);
+}
+
 /* Every empty node that is filled lies on the plane; those in a wide gap are not. */
 static void test_gapfill(void)
 {
@@ -171,6 +223,10 @@ int main(void)
     test_gridtin(545000, 5972000, 2.2);
     test_gridtin(-30, -30, 1e9);
     test_cellmean();
+    test_median();
+    for (int degree = 1; degree <= 3; degree++)
+        for (int over = 1; over <= 4; over++)
+            test_bsample(degree, over);
     test_gapfill();
     return done();
 }

@@ -67,7 +67,7 @@ static void test_interpolation(int degree)
     for (size_t j = 0; j < M; j++)
         for (size_t i = 0; i < N; i++)
             z[j * N + i] = *hm_bsurf_at(&s, (int64_t)i, (int64_t)j) = height(i, j);
-    hm_bspline_drag(&s, z, 200, 1, &rest, NULL);
+    hm_bspline_drag(&s, z, 200, 0, 1, &rest, NULL);
     for (size_t j = 0; j < M; j++)
         for (size_t i = 0; i < N; i++) {
             double p;
@@ -114,7 +114,7 @@ static void test_spike(int iterations, double keeps)
     z[20 * N + 20] = 1;
     hm_bsurf_init(&s, 2, N, N, 1, NULL);
     *hm_bsurf_at(&s, 20, 20) = 1;
-    hm_bspline_drag(&s, z, iterations, 1, NULL, NULL);
+    hm_bspline_drag(&s, z, iterations, 0, 1, NULL, NULL);
     hm_bspline_eval(&s, 20, 20, &p, NULL, NULL);
     near(p, keeps, 0.005, "a spike's height after dragging");
     hm_bsurf_free(&s);
@@ -132,7 +132,7 @@ static void test_threads(void)
         hm_bsurf_init(&s[t], 2, N, M, 1, NULL);
         for (size_t k = 0; k < (size_t)N * M; k++)
             *hm_bsurf_at(&s[t], (int64_t)(k % N), (int64_t)(k / N)) = isnan(z[k]) ? 1 : z[k];
-        hm_bspline_drag(&s[t], z, 3, t + 1, NULL, NULL);
+        hm_bspline_drag(&s[t], z, 3, 0, t + 1, NULL, NULL);
     }
     ok(!memcmp(s[0].d, s[1].d, sizeof(double) * (N + 2) * (M + 2)), "two threads: the same bytes");
     ok(*hm_bsurf_at(&s[0], 7, 0) == 1, "a control point without data stays");

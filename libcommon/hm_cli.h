@@ -76,8 +76,7 @@ struct hm_format hm_cli_format(const struct hm_cli *cli); /* -b, -p */
 const char *hm_cli_output(const struct hm_cli *cli);      /* -o, or "-" */
 /* Another format than asked for by the common options; before the first hm_cli_writer. */
 void hm_cli_set_format(struct hm_cli *cli, struct hm_format format);
-const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0.1 -d 5" */
-size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least one: "-" */
+const char *hm_cli_history(const struct hm_cli *cli); /* "bsgrid 0.1 -d 5" */
 
 /* --- input --- */
 

@@ -44,49 +44,53 @@ static enum hm_err copy_operand(const char *path, bool strict, struct hm_writer 
     return err == HM_END ? HM_OK : err;
 }
 
-/* Name of a new empty file for the spool, malloc'd. */
-static char *make_spool(struct hm_cli *cli)
+/* A descriptor of a new empty file that nobody else sees: its name is gone at once. */
+static int open_spool(struct hm_cli *cli)
 {
     const char *folder = getenv("TMPDIR");
     char *path;
     if (asprintf(&path, "%s/hm-spool-XXXXXX", folder && *folder ? folder : "/tmp") < 0)
         hm_cli_die(cli, "out of memory");
     int fd = mkstemp(path);
-    if (fd < 0)
+    if (fd < 0 || unlink(path))
         hm_cli_die(cli, "%s: %s", path, strerror(errno));
-    close(fd);
-    return path;
+    free(path);
+    return fd;
 }
 
 static void keep_inputs(struct hm_cli *cli)
 {
+    static const char name[] = "the inputs (--keep)";
     struct hm_diag d = {0};
     struct hm_writer *to[2] = {hm_cli_writer(cli), NULL};
-    cli->spool = make_spool(cli);
-    enum hm_err err = hm_writer_open(&to[1], cli->spool, (struct hm_format){.binary = true}, &d);
-    for (size_t k = 0; k < cli->noperands && !err; k++)
-        err = copy_operand(cli->operands[k], cli->strict, to, &d);
+    int spool = open_spool(cli), copy = dup(spool);
+    if (copy < 0)
+        hm_cli_die(cli, "%s: %s", name, strerror(errno));
+    enum hm_err err = hm_writer_open_fd(&to[1], copy, name, (struct hm_format){.binary = true}, &d);
+    for (; cli->opened < cli->noperands && !err; cli->opened++)
+        err = copy_operand(cli->operands[cli->opened], cli->strict, to, &d);
     if (!err)
         err = hm_writer_close(&to[1], &d);
-    if (err)
+    else
         hm_writer_abandon(to[1]);
     hm_cli_check(cli, err, &d);
-    cli->operands[0] = cli->spool;
-    cli->noperands = 1;
+    if (lseek(spool, 0, SEEK_SET))
+        hm_cli_die(cli, "%s: %s", name, strerror(errno));
+    hm_cli_check(cli, hm_reader_open_fd(&cli->reader, spool, name, &d), &d);
 }
 
 /* --- input --- */
 
-/* Open the next operand; false behind the last. */
+/* Open the next operand, or with --keep what was copied of all of them; false behind the last. */
 static bool open_operand(struct hm_cli *cli)
 {
-    if (cli->keep && !cli->spool)
-        keep_inputs(cli);
+    struct hm_diag d = {0};
     if (cli->opened == cli->noperands)
         return false;
-    struct hm_diag d = {0};
-    const char *path = cli->operands[cli->opened++];
-    hm_cli_check(cli, hm_reader_open(&cli->reader, path, &d), &d);
+    if (cli->keep)
+        keep_inputs(cli);
+    else
+        hm_cli_check(cli, hm_reader_open(&cli->reader, cli->operands[cli->opened++], &d), &d);
     hm_reader_strict(cli->reader, cli->strict);
     cli->dropped = 0;
     return true;
@@ -204,10 +208,6 @@ void hm_cli_free_streams(struct hm_cli *cli)
     hm_reader_close(cli->reader);
     hm_writer_abandon(cli->writer);
     hm_header_free(&cli->seen);
-    if (cli->spool)
-        unlink(cli->spool);
-    free(cli->spool);
     cli->reader = NULL;
     cli->writer = NULL;
-    cli->spool = NULL;
 }

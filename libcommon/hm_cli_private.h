@@ -8,7 +8,7 @@
 struct hm_cli {
     const struct hm_program *program;
     char *history;
-    char **operands; /* owned; the strings are argv's, or the spool's */
+    char **operands; /* owned; the strings are argv's */
     size_t noperands;
 
     const char *output;
@@ -19,7 +19,6 @@ struct hm_cli {
     struct hm_reader *reader;
     int dropped;           /* kinds of this operand that were said to be dropped */
     struct hm_header seen; /* keys and history of all inputs so far */
-    char *spool;           /* with --keep: the file that holds the inputs for a second reading */
     struct hm_writer *writer;
 
     int64_t mends;

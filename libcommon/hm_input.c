@@ -10,25 +10,26 @@
 enum { BUFFER = 1 << 20 };
 #define LONGEST_LINE ((size_t)1 << 30)
 
-enum hm_err hm_input_open(struct hm_input *in, const char *path, struct hm_diag *d)
+enum hm_err hm_input_open_fd(struct hm_input *in, int fd, const char *name, struct hm_diag *d)
 {
-    bool standard = !strcmp(path, "-");
-    *in = (struct hm_input){.fd = STDIN_FILENO};
-    in->name = strdup(standard ? "standard input" : path);
+    *in = (struct hm_input){.fd = fd};
+    in->name = strdup(name);
     in->buf = hm_alloc(BUFFER, 1);
     in->cap = BUFFER;
-    if (!in->name || !in->buf) {
-        hm_input_close(in);
-        return hm_fail_memory(d);
-    }
-    if (!standard)
-        in->fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (in->fd < 0) {
-        enum hm_err err = hm_fail_line(d, HM_EIO, path, 0, "cannot open: %s", strerror(errno));
-        hm_input_close(in);
-        return err;
-    }
-    return HM_OK;
+    if (in->name && in->buf)
+        return HM_OK;
+    hm_input_close(in);
+    return hm_fail_memory(d);
+}
+
+enum hm_err hm_input_open(struct hm_input *in, const char *path, struct hm_diag *d)
+{
+    if (!strcmp(path, "-"))
+        return hm_input_open_fd(in, STDIN_FILENO, "standard input", d);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return hm_fail_line(d, HM_EIO, path, 0, "cannot open: %s", strerror(errno));
+    return hm_input_open_fd(in, fd, path, d);
 }
 
 void hm_input_close(struct hm_input *in)

@@ -24,6 +24,8 @@ struct hm_input {
 
 /* path "-" is standard input. On failure there is nothing to close. */
 enum hm_err hm_input_open(struct hm_input *in, const char *path, struct hm_diag *d);
+/* On a descriptor, which is taken over, also on failure; name is for diagnostics. */
+enum hm_err hm_input_open_fd(struct hm_input *in, int fd, const char *name, struct hm_diag *d);
 void hm_input_close(struct hm_input *in);
 
 /* Have at least `need` unread bytes in the buffer, or all that there are. */

@@ -1,6 +1,7 @@
 /* hm_output: buffered bytes to a file or pipe, every one of them checked. Layer 5.
  *
- * A regular file is written beside its name and takes the name only when it is whole.
+ * A regular file takes its name only when it is whole: until then it has none, or where the file
+ * system cannot do that, one beside it.
  */
 #ifndef HM_OUTPUT_H
 #define HM_OUTPUT_H
@@ -9,8 +10,9 @@
 
 struct hm_output {
     char *path;   /* what is written to, for diagnostics and for the renaming */
-    char *beside; /* the file written meanwhile; NULL when it is written in place */
+    char *beside; /* the name that the file has meanwhile; NULL: none, or written in place */
     int fd;
+    bool nameless; /* the file was opened without a name */
     char *buf;
     size_t cap, fill;
     bool failed;
@@ -18,9 +20,12 @@ struct hm_output {
 
 /* path "-" is standard output. On failure there is nothing to close. */
 enum hm_err hm_output_open(struct hm_output *out, const char *path, struct hm_diag *d);
-/* Flush, rename and free, whatever happens. */
+/* On a descriptor, which is taken over, also on failure; name is for diagnostics. */
+enum hm_err hm_output_open_fd(struct hm_output *out, int fd, const char *name, struct hm_diag *d);
+/* Flush, close, rename and free, whatever happens; HM_EIO when the bytes did not arrive. Standard
+ * output stays open. */
 enum hm_err hm_output_close(struct hm_output *out, struct hm_diag *d);
-/* Free without finishing; what was written beside the name is removed. */
+/* Free without finishing; nothing of a regular file remains. */
 void hm_output_abandon(struct hm_output *out);
 
 enum hm_err hm_output_flush(struct hm_output *out, struct hm_diag *d);

@@ -7,17 +7,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A reader whose input was just opened, or could not be. */
+static enum hm_err make(struct hm_reader **r, struct hm_input *in, enum hm_err err,
+                        struct hm_diag *d)
+{
+    *r = err ? NULL : hm_alloc0(1, sizeof **r);
+    if (err)
+        return err;
+    if (!*r) {
+        hm_input_close(in);
+        return hm_fail_memory(d);
+    }
+    (*r)->in = *in;
+    return HM_OK;
+}
+
 enum hm_err hm_reader_open(struct hm_reader **r, const char *path, struct hm_diag *d)
 {
-    *r = hm_alloc0(1, sizeof **r);
-    if (!*r)
-        return hm_fail_memory(d);
-    enum hm_err err = hm_input_open(&(*r)->in, path, d);
-    if (err) {
-        free(*r);
-        *r = NULL;
-    }
-    return err;
+    struct hm_input in;
+    return make(r, &in, hm_input_open(&in, path, d), d);
+}
+
+enum hm_err hm_reader_open_fd(struct hm_reader **r, int fd, const char *name, struct hm_diag *d)
+{
+    struct hm_input in;
+    return make(r, &in, hm_input_open_fd(&in, fd, name, d), d);
 }
 
 static void forget_object(struct hm_reader *r)

@@ -27,6 +27,8 @@ struct hm_reader;
 
 /* path "-" is standard input. *r is NULL on failure. */
 enum hm_err hm_reader_open(struct hm_reader **r, const char *path, struct hm_diag *d);
+/* On a descriptor, which is taken over, also on failure; name is for diagnostics. */
+enum hm_err hm_reader_open_fd(struct hm_reader **r, int fd, const char *name, struct hm_diag *d);
 void hm_reader_close(struct hm_reader *r);
 
 /* A count in a header that disagrees with the data becomes an error (it is ignored otherwise). */

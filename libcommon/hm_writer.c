@@ -7,22 +7,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A writer on an output that was just opened, or could not be. */
+static enum hm_err make(struct hm_writer **w, struct hm_output *out, struct hm_format format,
+                        enum hm_err err, struct hm_diag *d)
+{
+    *w = err ? NULL : hm_alloc0(1, sizeof **w);
+    if (err)
+        return err;
+    if (!*w) {
+        hm_output_abandon(out);
+        return hm_fail_memory(d);
+    }
+    (*w)->format = format;
+    (*w)->out = *out;
+    return HM_OK;
+}
+
 enum hm_err hm_writer_open(struct hm_writer **w, const char *path, struct hm_format format,
                            struct hm_diag *d)
 {
+    struct hm_output out;
     *w = NULL;
     if (format.decimals < 0 || format.decimals > 17)
         return hm_fail(d, HM_EARG, "places behind the point: 1 to 17");
-    *w = hm_alloc0(1, sizeof **w);
-    if (!*w)
-        return hm_fail_memory(d);
-    (*w)->format = format;
-    enum hm_err err = hm_output_open(&(*w)->out, path, d);
-    if (err) {
-        free(*w);
-        *w = NULL;
-    }
-    return err;
+    return make(w, &out, format, hm_output_open(&out, path, d), d);
+}
+
+enum hm_err hm_writer_open_fd(struct hm_writer **w, int fd, const char *name,
+                              struct hm_format format, struct hm_diag *d)
+{
+    struct hm_output out;
+    return make(w, &out, format, hm_output_open_fd(&out, fd, name, d), d);
 }
 
 static void release(struct hm_writer *w)

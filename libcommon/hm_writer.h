@@ -22,10 +22,13 @@ struct hm_format {
                      refuse anything but 0 */
 };
 
-/* path "-" is standard output. A regular file is written beside its name and renamed by
- * hm_writer_close, so that an input may be overwritten and a failure leaves nothing. */
+/* path "-" is standard output. A regular file gets its name from hm_writer_close, so that an input
+ * may be overwritten and a failure leaves nothing. */
 enum hm_err hm_writer_open(struct hm_writer **w, const char *path, struct hm_format format,
                            struct hm_diag *d);
+/* On a descriptor, which is taken over, also on failure; name is for diagnostics. */
+enum hm_err hm_writer_open_fd(struct hm_writer **w, int fd, const char *name,
+                              struct hm_format format, struct hm_diag *d);
 enum hm_err hm_writer_begin(struct hm_writer *w, const struct hm_header *h, struct hm_diag *d);
 enum hm_err hm_writer_points(struct hm_writer *w, const double *rows, size_t n, struct hm_diag *d);
 enum hm_err hm_writer_row(struct hm_writer *w, const double *row, struct hm_diag *d);

@@ -81,6 +81,30 @@ must_fail 'empty input' 2 'standard input: empty' sh -c ': | hmconv'
 ok 'a closed pipe ends it in silence' test ! -s err
 ok 'by SIGPIPE' test "$(cat status)" -gt 128
 
+# --- killed: nothing is left, neither of the output nor of what --keep holds for a second reading ---
+mkdir product spool
+mkfifo pipe
+TMPDIR=$WORK/spool slope --keep -o product/kept.hm pipe &
+pid=$!
+exec 3>pipe # opened by the tool behind all that it writes
+cat grid.hm >&3
+named=$(ls product)
+kill -TERM $pid
+wait $pid 2>/dev/null
+exec 3>&-
+ok 'no spool is left' test -z "$(ls -A spool)"
+if [ -n "$named" ]; then
+    skip 'this file system has no files without names'
+else
+    ok 'nor the output' test -z "$(ls -A product)"
+fi
+sed 's/ slope$//; s/^\([^#]*\) [^ ]*$/\1/' grid.hm >height.hm
+cat points.hm height.hm lines.hm | TMPDIR=$WORK/spool slope --keep >got 2>err
+slope height.hm | cat points.hm height.hm lines.hm - >want
+same '--keep: the inputs, then the product' want got
+ok 'what the tool does not use is named' grep -qx 'slope: the inputs (--keep): lines not used here' err
+must_fail '--keep without room' 2 'nowhere/hm-spool-' env TMPDIR=nowhere slope --keep height.hm
+
 # --- foreign, on real data ---
 if need_data willamette_autzen/autzen_trim.las; then
     las=$DATA/willamette_autzen/autzen_trim.las

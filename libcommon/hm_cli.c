@@ -482,3 +482,9 @@ const char *hm_cli_history(const struct hm_cli *cli)
 {
     return cli->history;
 }
+
+size_t hm_cli_operands(const struct hm_cli *cli, char ***operands)
+{
+    *operands = cli->operands;
+    return cli->noperands;
+}

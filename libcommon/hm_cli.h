@@ -76,7 +76,8 @@ struct hm_format hm_cli_format(const struct hm_cli *cli); /* -b, -p */
 const char *hm_cli_output(const struct hm_cli *cli);      /* -o, or "-" */
 /* Another format than asked for by the common options; before the first hm_cli_writer. */
 void hm_cli_set_format(struct hm_cli *cli, struct hm_format format);
-const char *hm_cli_history(const struct hm_cli *cli); /* "bsgrid 0.1 -d 5" */
+const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0.1 -d 5" */
+size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least one: "-" */
 
 /* --- input --- */
 
@@ -97,6 +98,10 @@ void hm_cli_make_header(struct hm_cli *cli, struct hm_header *h);
 /* --- output --- */
 /* -o FILE or standard output, opened at the first call (binary to a terminal is refused). */
 struct hm_writer *hm_cli_writer(struct hm_cli *cli);
+
+/* A new empty file for what must be read twice: a descriptor, which is the caller's. It has no
+ * name, so nothing of it is left however the program ends. */
+int hm_cli_spool(struct hm_cli *cli);
 
 /* --- messages --- */
 /* If err is a failure: print d with the program's name and exit 2. */

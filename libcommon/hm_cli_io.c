@@ -44,8 +44,7 @@ static enum hm_err copy_operand(const char *path, bool strict, struct hm_writer 
     return err == HM_END ? HM_OK : err;
 }
 
-/* A descriptor of a new empty file that nobody else sees: its name is gone at once. */
-static int open_spool(struct hm_cli *cli)
+int hm_cli_spool(struct hm_cli *cli)
 {
     const char *folder = getenv("TMPDIR");
     char *path;
@@ -63,7 +62,7 @@ static void keep_inputs(struct hm_cli *cli)
     static const char name[] = "the inputs (--keep)";
     struct hm_diag d = {0};
     struct hm_writer *to[2] = {hm_cli_writer(cli), NULL};
-    int spool = open_spool(cli), copy = dup(spool);
+    int spool = hm_cli_spool(cli), copy = dup(spool);
     if (copy < 0)
         hm_cli_die(cli, "%s: %s", name, strerror(errno));
     enum hm_err err = hm_writer_open_fd(&to[1], copy, name, (struct hm_format){.binary = true}, &d);

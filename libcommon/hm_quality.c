@@ -161,10 +161,11 @@ static const char *const comparisons[] = {"<", "<=", ">", ">=", ""};
 
 static enum hm_err unknown_measure(const char *text, size_t n, struct hm_diag *d)
 {
-    char names[256] = "";
-    size_t used = 0;
-    for (int k = 0; k < MEASURES; k++)
-        used += (size_t)snprintf(names + used, sizeof names - used, " %s", measures[k].name);
+    char names[HM_DIAG_TEXT] = "";
+    for (int k = 0; k < MEASURES; k++) {
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, " %s", measures[k].name);
+    }
     return hm_fail(d, HM_EARG, "no measure is called '%.*s'; there are%s", (int)n, text, names);
 }
 

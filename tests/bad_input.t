@@ -86,9 +86,11 @@ for tool in bsgrid slope breaklines bsmesh trimesh stitch quality georef hmconv 
 done
 
 for bad in one line equal; do
-    for tool in bsgrid "trimesh -l 1 -L 3"; do
+    for tool in bsgrid "bsgrid -m mean" "bsgrid -m mean -f points -d 2" "trimesh -l 1 -L 3"; do
         refuses "$tool: $bad.xyz" "point|line" $tool $bad.xyz
     done
+    refuses "bsgrid -m mean, $bad.xyz, a window" "tell no surface: .* in the window" \
+        bsgrid -m mean -R 0/5/0/5 $bad.xyz
     refuses "bsmesh: a terrain of $bad.xyz" "terrain|point|line" \
         bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm $bad.xyz
 done

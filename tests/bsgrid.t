@@ -214,12 +214,12 @@ same "binary and text pipes" a.hm b.hm
 : >empty
 must_fail "empty" 2 'empty' bsgrid empty
 printf '1 2 3\n' >one.xyz
-must_fail "one point" 2 'three points|2 x 2' bsgrid one.xyz
-must_fail "one point, mean" 2 '2 x 2' bsgrid -m mean one.xyz
+must_fail "one point" 2 'no surface: there is only one' bsgrid one.xyz
+must_fail "one point, mean" 2 'no surface: there is only one' bsgrid -m mean one.xyz
 printf '1 1 0\n2 2 0\n3 3 0\n4 4 0\n' >line.xyz
-must_fail "all on a line" 2 'line' bsgrid line.xyz
+must_fail "all on a line" 2 'no surface: all lie on one line' bsgrid line.xyz
 printf '5 5 0\n5 5 1\n5 5 2\n' >equal.xyz
-must_fail "all equal" 2 '2 x 2|line' bsgrid equal.xyz
+must_fail "all equal" 2 'no surface: all lie at one place' bsgrid equal.xyz
 printf '1 1 0\n2 x 0\n' >word.xyz
 must_fail "a word" 2 'word.xyz:2:' bsgrid word.xyz
 printf '0 0 1\n1e300 1 2\n5 1e300 3\n' >far.xyz

@@ -23,7 +23,7 @@ short_names() {
 
 page_options "$man/hybridmesh.5" "COMMON OPTIONS" >common.page
 : >common.seen
-for tool in bsgrid slope breaklines bsmesh trimesh stitch quality hmconv hmdraw; do
+for tool in bsgrid slope breaklines bsmesh trimesh stitch quality georef hmconv hmdraw; do
     command -v $tool >/dev/null || { skip "$tool is not built"; continue; }
     page=$man/$tool.1
 

@@ -224,16 +224,27 @@ quality -c 'rmse<=0.5,red<1,minangle>=80,valid' wave.hm many.xyz >report.txt
 near "a criterion missed: exit 1" $? 1 0
 ok "a line a criterion" sh -c "sed -n '/^Criteria/,\$p' report.txt | cut -c1-6 | tr -d '\n' |
     grep -qx 'Criter  pass  miss  miss  pass'"
-must_fail "an unknown measure" 2 "no measure is called 'beauty'" quality -c 'beauty>1' wave.hm many.xyz
+must_fail "an unknown measure" 2 "no measure is called 'beauty'; there are rmse .* elements valid$" quality -c 'beauty>1' wave.hm many.xyz
 must_fail "no bound" 2 "rmse.*needs a bound" quality -c rmse wave.hm many.xyz
 sed 's/^t 1 4 2 3/t 2 4 1 3/' square.hm >clockwise.hm
 quality -c valid clockwise.hm seven.xyz >report.txt
 near "a clockwise triangle is not valid: exit 1" $? 1 0
 ok "and is named" grep -q 'area .* 1  first at' report.txt
 printf '1000 1000 1\n' >far.xyz
-quality -c 'rmse<1' square.hm far.xyz >report.txt 2>err
-near "nothing to compare is not met" $? 1 0
-ok "and said" grep -q 'no measurement with a height lies on the mesh' err
+
+# --- nothing to compare is no answer ---
+for criteria in '' '-c rmse<1' '-c valid'; do
+    must_fail "no point on the mesh $criteria" 2 'of 1, 1 lie outside the mesh, 0 have no height' \
+        quality $criteria -r left.hm square.hm far.xyz
+done
+printf '5 5 nan\n1 1 nan\n' >flat.xyz
+must_fail "points without heights" 2 'of 2, 0 lie outside the mesh, 2 have no height' quality square.hm flat.xyz
+sed 's/^\(v [^ ]* [^ ]*\) [^ ]*/\1 nan/' square.hm >level.hm
+must_fail "a mesh without heights" 2 'of 7, .* 5 lie where the mesh has none' quality level.hm seven.xyz
+printf '#hm 1 points text\n#fields x y z\n#data\n#end 0\n' >none.hm
+must_fail "points that are none" 2 'no points' quality square.hm none.hm
+ok "no report" test ! -s tap.out
+ok "one point on the mesh is enough" sh -c 'echo 5 5 1.5 | quality square.hm -'
 
 # --- what cannot be done ---
 must_fail "no mesh" 2 "no mesh" quality seven.xyz

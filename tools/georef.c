@@ -357,32 +357,18 @@ static void carry_inputs(struct hm_cli *cli, const struct hm_crs *target, struct
 
 /* --- the second reading --- */
 
-/* A file without a name of its own that holds what waits; removed at the end, also by hm_cli_die.
- */
-static char spool[4096];
+static const char spool_name[] = "the places read";
 
-static void remove_spool(void)
+/* What waits goes to a file without a name; a descriptor of it, to be read from the beginning. */
+static int fill_spool(struct hm_cli *cli, struct extent *extent)
 {
-    if (spool[0])
-        unlink(spool);
-}
-
-static void make_spool(struct hm_cli *cli)
-{
-    const char *folder = getenv("TMPDIR");
-    snprintf(spool, sizeof spool, "%s/georef-XXXXXX", folder && *folder ? folder : "/tmp");
-    int fd = mkstemp(spool);
-    if (fd < 0)
-        hm_cli_die(cli, "%s: %s", spool, strerror(errno));
-    close(fd);
-    atexit(remove_spool);
-}
-
-static void fill_spool(struct hm_cli *cli, struct extent *extent)
-{
+    const struct hm_format binary = {.binary = true};
     struct hm_diag d = {0};
     struct hm_writer *w;
-    hm_cli_check(cli, hm_writer_open(&w, spool, (struct hm_format){.binary = true}, &d), &d);
+    int spool = hm_cli_spool(cli), copy = dup(spool);
+    if (copy < 0)
+        hm_cli_die(cli, "%s: %s", spool_name, strerror(errno));
+    hm_cli_check(cli, hm_writer_open_fd(&w, copy, spool_name, binary, &d), &d);
     if (cmd.mgrs) {
         char **operand;
         size_t n = hm_cli_operands(cli, &operand);
@@ -392,6 +378,9 @@ static void fill_spool(struct hm_cli *cli, struct extent *extent)
         carry_inputs(cli, NULL, w, extent);
     }
     hm_cli_check(cli, hm_writer_close(&w, &d), &d);
+    if (lseek(spool, 0, SEEK_SET))
+        hm_cli_die(cli, "%s: %s", spool_name, strerror(errno));
+    return spool;
 }
 
 /* The zone of the middle of all, or its hemisphere when the zone was given. */
@@ -413,13 +402,13 @@ static void find_zone(struct hm_cli *cli, const struct extent *e, struct hm_crs 
         hm_cli_say(cli, "%s", text);
 }
 
-static void carry_spool(struct hm_cli *cli, const struct hm_crs *target)
+static void carry_spool(struct hm_cli *cli, int spool, const struct hm_crs *target)
 {
     struct hm_reader *r;
     struct hm_header h;
     struct hm_diag d = {0};
     enum hm_err err;
-    hm_cli_check(cli, hm_reader_open(&r, spool, &d), &d);
+    hm_cli_check(cli, hm_reader_open_fd(&r, spool, spool_name, &d), &d);
     while (!(err = hm_reader_next(r, &h, &d))) {
         struct plan p = {.known = true, .source = {.kind = HM_CRS_LONLAT}, .target = *target};
         p.in_xy = &degree;
@@ -476,11 +465,10 @@ int main(int argc, char **argv)
         carry_inputs(cli, named ? &target : NULL, hm_cli_writer(cli), NULL);
     } else {
         struct extent extent = {0};
-        make_spool(cli);
-        fill_spool(cli, &extent);
+        int spool = fill_spool(cli, &extent);
         if (!whole)
             find_zone(cli, &extent, &target);
-        carry_spool(cli, &target);
+        carry_spool(cli, spool, &target);
     }
     hm_geoid_close(geoid);
     return hm_cli_finish(cli);

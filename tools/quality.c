@@ -257,10 +257,16 @@ static void read_inputs(struct run *run)
     }
     if (!run->locate)
         hm_cli_die(run->cli, "no mesh among the inputs");
-    if (!run->quality.surveyed)
+    const struct hm_quality *q = &run->quality;
+    if (q->points == 0)
         hm_cli_die(run->cli, "no points among the inputs");
-    if (!run->quality.nworst)
-        hm_cli_say(run->cli, "no measurement with a height lies on the mesh");
+    if (q->nworst == 0)
+        hm_cli_die(
+            run->cli,
+            "no measurement tells anything: of %lld, %lld lie outside the mesh, %lld have no "
+            "height, %lld lie where the mesh has none",
+            (long long)q->points, (long long)q->outside, (long long)q->heightless,
+            (long long)q->unknown);
 }
 
 /* --- output --- */

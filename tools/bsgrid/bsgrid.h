@@ -22,6 +22,13 @@ extern struct command cmd;
 
 enum { CLASSES = 256 };
 
+/* Whether points span an area: two of them at different places, and whether any is off their line.
+ */
+struct spread {
+    enum { NOWHERE, ONE_PLACE, ONE_LINE, AN_AREA } over;
+    double a[2], b[2];
+};
+
 /* The points, as far as the method needs them. */
 struct survey {
     double window[4]; /* w, e, s, n as asked, when there is one */
@@ -36,6 +43,7 @@ struct survey {
     size_t n, cap;
     struct hm_cellmean *cells; /* not hold: sums of cells */
     double box[4];             /* extent of the points used */
+    struct spread spread;
     int64_t used, without_z, duplicates, in_gaps, blunders;
 };
 

@@ -1,10 +1,24 @@
 /* points.c: the points that bsgrid takes, and the lattices for them. */
 #include "bsgrid.h"
 #include "hm_batch.h"
+#include "hm_pred.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static void widen(struct spread *s, const double *p)
+{
+    if (s->over == NOWHERE) {
+        memcpy(s->a, p, sizeof s->a);
+        s->over = ONE_PLACE;
+    } else if (s->over == ONE_PLACE && (p[0] != s->a[0] || p[1] != s->a[1])) {
+        memcpy(s->b, p, sizeof s->b);
+        s->over = ONE_LINE;
+    } else if (s->over == ONE_LINE && hm_pred_orient(s->a, s->b, p) != 0) {
+        s->over = AN_AREA;
+    }
+}
 
 static enum hm_err add_point(struct survey *s, const double *p, struct hm_diag *d)
 {
@@ -15,6 +29,7 @@ static enum hm_err add_point(struct survey *s, const double *p, struct hm_diag *
         return HM_OK;
     }
     s->used++;
+    widen(&s->spread, p);
     s->box[0] = fmin(s->box[0], p[0]);
     s->box[1] = fmax(s->box[1], p[0]);
     s->box[2] = fmin(s->box[2], p[1]);
@@ -81,11 +96,25 @@ void read_points(struct hm_cli *cli, struct survey *s, const struct hm_header *h
     hm_batch_free(&b);
 }
 
+/* Points that span no area tell no surface. */
+static void check_spread(struct hm_cli *cli, const struct survey *s)
+{
+    const char *where = s->has_window ? " in the window" : "";
+    if (s->used == 0)
+        hm_cli_die(cli, "no points with a height%s", where);
+    if (s->spread.over == AN_AREA)
+        return;
+    hm_cli_die(cli, "the points tell no surface: %s%s",
+               s->used == 1                  ? "there is only one"
+               : s->spread.over == ONE_PLACE ? "all lie at one place"
+                                             : "all lie on one line",
+               where);
+}
+
 void place_nodes(struct hm_cli *cli, struct survey *s)
 {
     struct hm_diag d = {0};
-    if (s->used == 0)
-        hm_cli_die(cli, "no points with a height%s", s->has_window ? " in the window" : "");
+    check_spread(cli, s);
     if (!s->has_window) {
         enum hm_err err = cmd.method != TIN ? hm_anchor_touching(&s->nodes, cmd.spacing, s->box, &d)
                                             : hm_anchor_within(&s->nodes, cmd.spacing, s->box, &d);

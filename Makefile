@@ -40,6 +40,7 @@ BIN       := $(PROGRAMS:%=$(B)/bin/%)
 GEN       := $(patsubst tests/gen/%.c,$(B)/test/%,$(wildcard tests/gen/*.c))
 UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.c))
 BENCH     := $(patsubst tests/bench/bench_%.cc,%,$(wildcard tests/bench/bench_*.cc))
+BENCH_SH  := $(patsubst tests/bench/bench_%.sh,%,$(wildcard tests/bench/bench_*.sh))
 FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
@@ -130,12 +131,17 @@ $(B)/bench/%: tests/bench/%.cc $(LIB)
 	$(if $(Q),@echo "  LD      $@")
 	$(Q)$(CXX) -std=c++17 -O3 -DNDEBUG -Ilibcommon -MMD -MP -o $@ $< $(LIB) -lgmp -lmpfr -pthread -lm
 
-bench: $(BENCH:%=bench-%)
+bench: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
 bench-delaunay: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
 $(BENCH:%=bench-%): bench-%: $(B)/bench/bench_%
 	$(Q)tests/deps bench quiet
 	$(Q)$< $(BENCH_ARGS)
-.PHONY: $(BENCH:%=bench-%)
+.PHONY: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
+
+# The programs themselves, as a user runs them.
+$(BENCH_SH:%=bench-%): bench-%: tests/bench/bench_%.sh all $(GEN)
+	$(Q)tests/deps bench quiet
+	$(Q)B=$(CURDIR)/$(B) $< $(BENCH_ARGS)
 
 # Each target with libFuzzer and the sanitizers for SECONDS; what it finds stays in build/fuzz, the seeds
 # in tests/fuzz/corpus.
@@ -167,7 +173,7 @@ lint:
 	    $(filter-out %.cpp,$(filter %.c,$(SOURCES)))
 	$(Q)$(MAKE) --no-print-directory B=build/lint CFLAGS='-O2 -Werror' all $(patsubst $(B)/%,build/lint/%,$(GEN) $(UNIT))
 	$(Q)mandoc -T lint -W warning $(wildcard man/*.[157])
-	$(Q)for f in tests/*.t tests/long/*.t tests/run tests/deps tests/demo .ci/run; do \
+	$(Q)for f in tests/*.t tests/long/*.t tests/bench/*.sh tests/run tests/deps tests/demo .ci/run; do \
 	    [ ! -e $$f ] || bash -n $$f || exit 1; done
 
 compile_commands.json: FORCE

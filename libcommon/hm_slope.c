@@ -149,6 +149,59 @@ void hm_slope_gradient(enum hm_slope_method method, const double *const z[3], si
         weighted_row(&s, gx, gy);
 }
 
+/* --- second derivatives --- */
+
+/* The mixed derivative: the mean over the cells around that have all corners. */
+static double mixed(const struct stencil *s, size_t i)
+{
+    double sum = 0, n = 0;
+    for (int side = 0; side < 4; side++) {
+        int di = side & 1 ? 1 : -1, dk = side & 2 ? 1 : -1;
+        double bend = at(s, 1 + dk, i, di) - at(s, 1 + dk, i, 0) - at(s, 1, i, di) + at(s, 1, i, 0);
+        if (!isnan(bend)) {
+            sum += di * dk * bend;
+            n++;
+        }
+    }
+    return sum / n / (s->dx * s->dy);
+}
+
+void hm_slope_second(enum hm_slope_method method, const double *const z[3], size_t nx, double dx,
+                     double dy, struct hm_slope_second *second)
+{
+    bool weighs = method != HM_SLOPE_SIMPLE && method != HM_SLOPE_STEEPEST;
+    struct stencil s = make_stencil(weighs ? method : HM_SLOPE_OVER_DISTANCE, z, nx, dx, dy);
+    for (size_t i = 0; i < nx; i++) {
+        double along_x[3], along_y[3];
+        for (int k = 0; k < 3; k++) {
+            along_x[k] = at(&s, k, i, -1) - 2 * at(&s, k, i, 0) + at(&s, k, i, 1);
+            along_y[k] = at(&s, 0, i, k - 1) - 2 * at(&s, 1, i, k - 1) + at(&s, 2, i, k - 1);
+        }
+        second[i].xx = weighted(along_x, s.middle_x, s.side_x) / (dx * dx);
+        second[i].yy = weighted(along_y, s.middle_y, s.side_y) / (dy * dy);
+        second[i].xy = mixed(&s, i);
+    }
+}
+
+double hm_slope_profile_curvature(double gx, double gy, const struct hm_slope_second *s)
+{
+    double g2 = gx * gx + gy * gy;
+    if (!(g2 > 0))
+        return NAN;
+    double bend = gx * gx * s->xx + 2 * gx * gy * s->xy + gy * gy * s->yy;
+    return bend / (g2 * (1 + g2) * sqrt(1 + g2));
+}
+
+double hm_slope_plan_curvature(double gx, double gy, const struct hm_slope_second *s)
+{
+    double g2 = gx * gx + gy * gy;
+    if (!(g2 > 0))
+        return NAN;
+    return (gy * gy * s->xx - 2 * gx * gy * s->xy + gx * gx * s->yy) / (g2 * sqrt(g2));
+}
+
+/* --- units --- */
+
 static double from_tangent(double tangent, enum hm_slope_unit unit)
 {
     if (unit == HM_SLOPE_PERCENT)

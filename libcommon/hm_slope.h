@@ -33,6 +33,26 @@ enum hm_slope_unit { HM_SLOPE_DEGREE, HM_SLOPE_PERCENT, HM_SLOPE_RADIAN };
 void hm_slope_gradient(enum hm_slope_method method, const double *const z[3], size_t nx, double dx,
                        double dy, double *gx, double *gy);
 
+/* The second derivatives of a node: zxx, zxy, zyy. */
+struct hm_slope_second {
+    double xx, xy, yy;
+};
+
+/* Second derivatives of the nodes of the row z[1], as above: second differences over the rows and
+ * columns, with the weights of the method (those of one-over-distance for simple and steepest), the
+ * mixed one over the four cells around. Rows, columns and cells that miss a node do not count; NaN
+ * where none is left. */
+void hm_slope_second(enum hm_slope_method method, const double *const z[3], size_t nx, double dx,
+                     double dy, struct hm_slope_second *second);
+
+/* Curvature of the ground along its fall, 1/m: > 0 where it gets flatter downhill (toes), < 0 where
+ * it gets steeper (crests). NaN on level ground. */
+double hm_slope_profile_curvature(double gx, double gy, const struct hm_slope_second *s);
+
+/* Curvature of the contour line, 1/m: > 0 where it bends around higher ground on its outside
+ * (hollows), < 0 on spurs. NaN on level ground. */
+double hm_slope_plan_curvature(double gx, double gy, const struct hm_slope_second *s);
+
 /* Equation (1): the slope of a gradient. */
 double hm_slope_of(double gx, double gy, enum hm_slope_unit unit);
 

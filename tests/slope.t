@@ -48,8 +48,28 @@ true_that "irregular points, TIN, dragging, slope: exact" \
 true_that "bspline: the surface's own derivative" \
     "$(bsgrid -d 2 --derivatives plane.xyz 2>/dev/null | slope -m bspline | awk '$6 != "nan"' | off 6 $degrees) < 1e-9"
 
+# curvature of a dome and a bowl: a sphere of radius 50 has 1/50 in every normal section; its contours at
+# distance d from the middle have 1/d
+for sign in - +; do
+    grid 41 41 "${sign}(2500 - (x - 120.3) ^ 2 - (y - 219.8) ^ 2) ^ 0.5" >sphere.hm
+    slope -c -m zt sphere.hm >a.hm
+    true_that "profile curvature of a sphere, $sign" "$(awk -v s="$sign" '!/^#/ && $5 != "nan" { e = $5 - (s == "-" ? 0.02 : -0.02)
+        if (e < 0) e = -e; if (e > m) m = e; n++ } END { print (n == 39 * 39 ? m : 9) }' a.hm) < 1e-4"
+    true_that "plan curvature of its contours, $sign" "$(awk -v s="$sign" '!/^#/ && $6 != "nan" {
+        d = sqrt(($1 - 120.3) ^ 2 + ($2 - 219.8) ^ 2); if (d < 4) next; e = $6 * d - (s == "-" ? 1 : -1)
+        if (e < 0) e = -e; if (e > m) m = e; n++ } END { print (n > 1400 ? m : 9) }' a.hm) < 0.02"
+done
+ok "its bands" grep -q '^#fields x y z slope profile plan$' a.hm
+ok "and units" grep -q '^#units m m m degree 1/m 1/m$' a.hm
+true_that "a plane has none" "$(slope -c plane.hm | awk '!/^#/ && $5 != "nan"' | off 5 0) < 1e-12"
+bsgrid -d 2 --derivatives plane.xyz 2>/dev/null | slope -m bspline -c >a.hm
+ok "with the surface's own derivative, too" grep -q '^#fields x y z dzdx dzdy slope profile plan$' a.hm
+
 # forms of the stream, threads
 grid 300 300 'sin(x / 7) * cos(y / 5) + ((x * 7 + y * 3) % 11) / 20' >rough.hm
+slope -j 1 -a -c rough.hm >one.hm
+slope -j 2 -a -c rough.hm >two.hm
+same "one thread as two, all bands" one.hm two.hm
 slope -j 1 rough.hm >one.hm
 slope -j 2 rough.hm >two.hm
 same "one thread as two" one.hm two.hm

@@ -12,7 +12,7 @@ enum { BSPLINE = HM_SLOPE_STEEPEST + 1 };
 static struct {
     int method;
     int unit;
-    bool aspect;
+    bool aspect, curvature;
 } cmd;
 
 static const struct hm_option options[] = {
@@ -23,6 +23,8 @@ static const struct hm_option options[] = {
      .choices = "degree|percent|radian"},
     {'a', "aspect", NULL, HM_OPT_FLAG, &cmd.aspect,
      .help = "add where the ground falls to, in degrees clockwise from north"},
+    {'c', "curvature", NULL, HM_OPT_FLAG, &cmd.curvature,
+     .help = "add the curvature along the fall and that of the contour, 1/m"},
     {0}};
 
 static const struct hm_program program = {
@@ -44,6 +46,7 @@ struct stream {
     int64_t from;           /* the first row to compute next */
     double *in, *height;    /* room rows */
     double *gradient, *out; /* room rows */
+    struct hm_slope_second *second;
 };
 
 static size_t band_of(struct hm_cli *cli, const struct hm_header *h, const char *name)
@@ -72,12 +75,13 @@ static struct stream open_stream(struct hm_cli *cli, const struct hm_header *h)
         s.gx = band_of(cli, h, "dzdx");
         s.gy = band_of(cli, h, "dzdy");
     }
-    s.added = cmd.aspect ? 2 : 1;
+    s.added = 1 + (size_t)cmd.aspect + 2 * (size_t)cmd.curvature;
     size_t rows = NODES / s.nx;
     s.room = (rows < 1 ? 1 : rows > MOST_ROWS ? MOST_ROWS : rows) + 2;
     s.in = need(cli, s.room * s.nx, s.bands * sizeof *s.in);
     s.height = need(cli, s.room * s.nx, sizeof *s.height);
     s.gradient = need(cli, s.room * s.nx, 2 * sizeof *s.gradient);
+    s.second = need(cli, cmd.curvature ? s.room * s.nx : 0, sizeof *s.second);
     s.out = need(cli, s.room * s.nx, (s.bands + s.added) * sizeof *s.out);
     return s;
 }
@@ -87,6 +91,7 @@ static void close_stream(struct stream *s)
     free(s->in);
     free(s->height);
     free(s->gradient);
+    free(s->second);
     free(s->out);
 }
 
@@ -137,12 +142,24 @@ static void take_gradient(const struct stream *s, int64_t row, double *gx, doubl
     hm_slope_gradient((enum hm_slope_method)cmd.method, z, s->nx, s->l.dx, s->l.dy, gx, gy);
 }
 
+/* Second derivatives are not among the bands of the surface: they come from its heights. */
+static enum hm_slope_method second_method(void)
+{
+    return cmd.method == BSPLINE ? HM_SLOPE_OVER_DISTANCE : (enum hm_slope_method)cmd.method;
+}
+
 static void compute_row(void *arg, size_t k)
 {
     const struct stream *s = arg;
     int64_t row = s->from + (int64_t)k;
     double *gx = s->gradient + k * 2 * s->nx, *gy = gx + s->nx;
+    struct hm_slope_second *second = s->second + (cmd.curvature ? k * s->nx : 0);
     take_gradient(s, row, gx, gy);
+    if (cmd.curvature) {
+        const double *const z[3] = {height_row(s, row - 1), height_row(s, row),
+                                    height_row(s, row + 1)};
+        hm_slope_second(second_method(), z, s->nx, s->l.dx, s->l.dy, second);
+    }
     const double *in = s->in + (size_t)(row - s->base) * s->nx * s->bands;
     double *out = s->out + k * s->nx * (s->bands + s->added);
     for (size_t i = 0; i < s->nx; i++) {
@@ -151,6 +168,10 @@ static void compute_row(void *arg, size_t k)
         *out++ = hm_slope_of(gx[i], gy[i], (enum hm_slope_unit)cmd.unit);
         if (cmd.aspect)
             *out++ = hm_slope_aspect(gx[i], gy[i]);
+        if (cmd.curvature) {
+            *out++ = hm_slope_profile_curvature(gx[i], gy[i], &second[i]);
+            *out++ = hm_slope_plan_curvature(gx[i], gy[i], &second[i]);
+        }
     }
 }
 
@@ -184,6 +205,10 @@ static void do_grid(struct hm_cli *cli, struct hm_header *h)
     add_band(cli, h, "slope", hm_slope_unit_name((enum hm_slope_unit)cmd.unit));
     if (cmd.aspect)
         add_band(cli, h, "aspect", "degree");
+    if (cmd.curvature) {
+        add_band(cli, h, "profile", "1/m");
+        add_band(cli, h, "plan", "1/m");
+    }
     hm_cli_make_header(cli, h);
     hm_cli_check(cli, hm_writer_begin(w, h, &d), &d);
     bool last;

@@ -1,5 +1,6 @@
 /* Slopes: every method on planes (borders, holes, any steps), orders of error on a curved surface.
  */
+#include "hm_bsample.h"
 #include "hm_slope.h"
 #include "tap.h"
 
@@ -89,6 +90,66 @@ static void test_order(enum hm_slope_method method, double want)
     near(order, want, 0.1, "order of error on a curved surface");
 }
 
+/* The derivative of the B-spline surface that has the heights as control points. */
+static double spline_error_at(int degree, double h)
+{
+    enum { N = 5, MIDDLE = 2 };
+    struct hm_bsurf s;
+    struct hm_bsample *b;
+    double z[N], zu[N], zv[N], x0 = 0.4, y0 = 0.7;
+    hm_bsurf_init(&s, degree, N, N, 1, NULL);
+    for (int64_t j = 0; j < N; j++)
+        for (int64_t i = 0; i < N; i++)
+            *hm_bsurf_at(&s, i, j) =
+                sin(x0 + (double)(i - MIDDLE) * h) * exp(y0 + (double)(j - MIDDLE) * h);
+    hm_bsurf_extend(&s);
+    hm_bsample_new(&b, &s, 1, NULL);
+    hm_bsample_row(b, MIDDLE, z, zu, zv);
+    hm_bsample_free(b);
+    hm_bsurf_free(&s);
+    return hypot(zu[MIDDLE] / h - cos(x0) * exp(y0), zv[MIDDLE] / h - sin(x0) * exp(y0));
+}
+
+/* Errors of the second derivatives and of the curvatures made of them. */
+static double second_error_at(enum hm_slope_method method, double h)
+{
+    double z[3][3], x0 = 0.4, y0 = 0.7, u = sin(x0) * exp(y0), v = cos(x0) * exp(y0);
+    struct hm_slope_second got[3], want = {-u, v, u};
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            z[j][i] = sin(x0 + (i - 1) * h) * exp(y0 + (j - 1) * h);
+    hm_slope_second(method, (const double *const[]){z[0], z[1], z[2]}, 3, h, h, got);
+    double profile = hm_slope_profile_curvature(v, u, &got[1]);
+    double plan = hm_slope_plan_curvature(v, u, &got[1]);
+    return fabs(got[1].xx - want.xx) + fabs(got[1].xy - want.xy) + fabs(got[1].yy - want.yy) +
+           fabs(profile - hm_slope_profile_curvature(v, u, &want)) +
+           fabs(plan - hm_slope_plan_curvature(v, u, &want));
+}
+
+static void test_second_order(enum hm_slope_method method)
+{
+    near(log2(second_error_at(method, 0.02) / second_error_at(method, 0.01)), 2, 0.1,
+         "order of error of second derivatives");
+}
+
+/* Beside a missing node what is left still gives a quadratic surface exactly. */
+static void test_second_beside_nodata(void)
+{
+    double z[3][5];
+    struct hm_slope_second s[5];
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 5; i++)
+            z[j][i] = 2 * i * i - 3 * i * j + 0.5 * j * j + i;
+    z[0][0] = z[2][3] = NAN;
+    hm_slope_second(HM_SLOPE_HORN, (const double *const[]){z[0], z[1], z[2]}, 5, 1, 1, s);
+    double worst = 0;
+    for (int i = 1; i < 4; i++)
+        worst = fmax(worst, fabs(s[i].xx - 4) + fabs(s[i].xy + 3) + fabs(s[i].yy - 1));
+    near(worst, 0, 1e-12, "second derivatives beside nodata");
+    hm_slope_second(HM_SLOPE_ZT, (const double *const[]){NULL, z[1], z[2]}, 5, 1, 1, s);
+    ok(isnan(s[2].yy) && s[2].xx == 4 && isnan(s[0].xx), "none at the border");
+}
+
 static void test_steepest(void)
 {
     static struct field f;
@@ -117,6 +178,13 @@ int main(void)
     for (int m = HM_SLOPE_OVER_DISTANCE; m <= HM_SLOPE_EQUAL; m++)
         test_order((enum hm_slope_method)m, 2);
     test_order(HM_SLOPE_SIMPLE, 1);
+    test_order(HM_SLOPE_STEEPEST, 0); /* eight directions stay eight */
+    for (int degree = 1; degree <= 3; degree++)
+        near(log2(spline_error_at(degree, 0.02) / spline_error_at(degree, 0.01)), 2, 0.1,
+             "order of error of the surface's own derivative");
+    for (int m = HM_SLOPE_OVER_DISTANCE; m <= HM_SLOPE_STEEPEST; m++)
+        test_second_order((enum hm_slope_method)m);
+    test_second_beside_nodata();
     test_steepest();
     near(hm_slope_aspect(0, -1), 0, 0, "ground that falls to the north: aspect 0");
     near(hm_slope_aspect(-1, 0), 90, 1e-13, "to the east: 90");

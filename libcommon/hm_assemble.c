@@ -281,7 +281,7 @@ static enum hm_err check_regular(const struct hm_build *b, const char *why, stru
 static enum hm_err triangulate(struct hm_build *b, struct hm_diag *d)
 {
     const size_t stride = sizeof *b->node / sizeof(double);
-    struct hm_tri_mends hull = {0}, mends = {0};
+    struct hm_tri_mends hull = {0}, mends = {.tell = b->in->mended, .who = b->in->who};
     enum hm_err err =
         hm_tri_build(&b->tri, b->nnodes ? &b->node->x : NULL, b->nnodes, stride, b->in->threads, d);
     if (err)
@@ -308,10 +308,10 @@ static enum hm_err triangulate(struct hm_build *b, struct hm_diag *d)
                             "an outline, hole or region cuts into the edge of a regular mesh: "
                             "draw it through the mesh's corners or clear of it",
                             d);
-    b->counts->crossings = mends.crossings;
-    b->counts->on_lines = mends.on_segment;
-    b->counts->overlaps = mends.overlaps;
-    b->counts->zero_length = mends.zero_length;
+    b->counts->crossings = mends.n[HM_TRI_CROSSING];
+    b->counts->on_lines = mends.n[HM_TRI_ON_SEGMENT];
+    b->counts->overlaps = mends.n[HM_TRI_OVERLAP];
+    b->counts->zero_length = mends.n[HM_TRI_ZERO_LENGTH];
     for (size_t i = b->first_point; i < b->end_points; i++)
         if (hm_tri_input(b->tri, hm_tri_of_input(b->tri, i)) < (int64_t)b->first_point)
             b->counts->duplicates++;

@@ -20,6 +20,8 @@ struct hm_assembly {
     double clearance;                 /* m: what is nearer to a regular mesh is cut off */
     bool line_z_terrain;              /* heights of breaklines from the terrain, not their own */
     int threads;
+    void (*mended)(void *who, enum hm_tri_mend what, double x, double y); /* told, when set */
+    void *who;
 };
 
 /* What was done on the way. */

@@ -2,7 +2,6 @@
  * hm_assemble_private.h. */
 #include "hm_assemble_private.h"
 #include "hm_polyline.h"
-#include "hm_pred.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,60 +28,32 @@ static int32_t ground_at(const struct hm_build *b, double x, double y)
     return odd && !hm_fence_is_inside(b->fence, x, y) ? region + 1 : 0;
 }
 
-/* The largest triangle of a component: its double area and its centre. */
-struct largest {
-    double area2, x, y;
-};
-
-struct components {
-    struct largest *v; /* component k has the region k + 1 */
-    size_t n, cap;
-};
-
-/* Number the components that borders, regular meshes and regions leave. */
-static enum hm_err find_components(struct hm_tri *t, struct components *c, struct hm_diag *d)
-{
-    const int32_t stop = HM_EDGE_REGULAR | HM_EDGE_BORDER | HM_EDGE_REGION;
-    for (int32_t tri = 0; tri < hm_tri_triangles(t); tri++) {
-        if (!hm_tri_is_solid(t, tri))
-            continue;
-        if (hm_tri_region(t, tri) == 0) {
-            if (!hm_grow(&c->v, &c->cap, c->n + 1, sizeof *c->v))
-                return hm_fail_memory(d);
-            c->v[c->n++] = (struct largest){-1, 0, 0};
-            enum hm_err err = hm_tri_flood(t, tri, stop, (int32_t)c->n, d);
-            if (err)
-                return err;
-        }
-        const double *p[3];
-        for (int k = 0; k < 3; k++)
-            p[k] = hm_tri_xy(t, hm_tri_org(t, 3 * tri + k));
-        double area2 = hm_area2(p[0], p[1], p[2]);
-        struct largest *l = &c->v[hm_tri_region(t, tri) - 1];
-        if (area2 > l->area2)
-            *l = (struct largest){area2, (p[0][0] + p[1][0] + p[2][0]) / 3,
-                                  (p[0][1] + p[1][1] + p[2][1]) / 3};
-    }
-    return HM_OK;
-}
-
-/* Each component is judged by the centre of its largest triangle, which is farthest from what
- * rounding did to its rim. */
+/* Each component that borders, regular meshes and regions leave is judged by the centre of its
+ * largest triangle, which is farthest from what rounding did to its rim. */
 enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d)
 {
-    struct components c = {0};
-    enum hm_err err = find_components(b->tri, &c, d);
-    int32_t *ground = hm_alloc(c.n, sizeof *ground);
-    if (!err && !ground)
+    const int32_t stop = HM_EDGE_REGULAR | HM_EDGE_BORDER | HM_EDGE_REGION;
+    struct hm_tri_components c;
+    enum hm_err err = hm_tri_components(b->tri, stop, &c, d);
+    if (err)
+        return err;
+    int32_t *ground = hm_alloc((size_t)c.n, sizeof *ground);
+    if (!ground)
         err = hm_fail_memory(d);
-    for (size_t k = 0; !err && k < c.n; k++)
-        ground[k] = ground_at(b, c.v[k].x, c.v[k].y);
-    for (int32_t tri = 0; !err && tri < hm_tri_triangles(b->tri); tri++) {
-        bool solid = hm_tri_is_solid(b->tri, tri); /* the flood reaches ghosts too */
-        hm_tri_set_region(b->tri, tri, solid ? ground[hm_tri_region(b->tri, tri) - 1] : 0);
+    for (int32_t k = 0; !err && k < c.n; k++) {
+        double p[2];
+        ground[k] = 0;
+        if (c.largest[k] == HM_TRI_NONE)
+            continue;
+        hm_tri_centre(b->tri, c.largest[k], p);
+        ground[k] = ground_at(b, p[0], p[1]);
     }
+    for (int32_t tri = 0; !err && tri < hm_tri_triangles(b->tri); tri++)
+        if (hm_tri_is_solid(b->tri, tri) &&
+            hm_tri_set_region(b->tri, tri, ground[c.of[tri]]) != HM_OK)
+            err = hm_fail_memory(d);
     free(ground);
-    free(c.v);
+    hm_tri_components_free(&c);
     return err;
 }
 

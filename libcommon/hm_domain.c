@@ -52,32 +52,40 @@ static enum hm_err constrain(struct hm_domain *dom, struct hm_diag *d)
     struct hm_tri_mends mends = {0};
     enum hm_err err = hm_tri_constrain(dom->tri, s, dom->nedges, &mends, d);
     free(s);
-    if (!err && mends.crossings + mends.on_segment + mends.zero_length > 0)
+    if (!err &&
+        mends.n[HM_TRI_CROSSING] + mends.n[HM_TRI_ON_SEGMENT] + mends.n[HM_TRI_ZERO_LENGTH] > 0)
         err = hm_fail(d, HM_EGEOM,
                       "fixed edges lie too near to each other for the precision of "
                       "the coordinates: move the origin nearer to them");
     return err;
 }
 
-/* Fill the inside: from both sides of every fixed edge, as far as the next border. */
+/* What the fixed edges say of their two sides holds of all that these hang together with. */
 static enum hm_err fill(struct hm_domain *dom, struct hm_diag *d)
 {
     const int32_t stop = HM_EDGE_REGULAR | HM_EDGE_BORDER | HM_EDGE_REGION;
     struct hm_tri *t = dom->tri;
-    for (size_t k = 0; k < dom->nedges; k++) {
+    struct hm_tri_components c;
+    enum hm_err err = hm_tri_components(t, stop, &c, d);
+    if (err)
+        return err;
+    int32_t *region = hm_alloc0((size_t)c.n, sizeof *region);
+    if (!region)
+        err = hm_fail_memory(d);
+    for (size_t k = 0; !err && k < dom->nedges; k++) {
         const struct hm_domain_edge *e = &dom->edge[k];
         int32_t left = hm_tri_edge_between(t, hm_tri_of_input(t, (size_t)e->a),
                                            hm_tri_of_input(t, (size_t)e->b));
-        int32_t side[2] = {left / 3, hm_tri_twin(t, left) / 3};
-        int32_t region[2] = {e->left, e->right};
-        for (int i = 0; i < 2; i++)
-            if (region[i] != HM_OUTSIDE && hm_tri_region(t, side[i]) == 0) {
-                enum hm_err err = hm_tri_flood(t, side[i], stop, region[i] + 1, d);
-                if (err)
-                    return err;
-            }
+        int32_t *side[2] = {&region[c.of[left / 3]], &region[c.of[hm_tri_twin(t, left) / 3]]};
+        *side[0] = *side[0] ? *side[0] : e->left + 1;
+        *side[1] = *side[1] ? *side[1] : e->right + 1;
     }
-    return HM_OK;
+    for (int32_t tri = 0; !err && tri < hm_tri_triangles(t); tri++)
+        if (c.of[tri] != HM_TRI_NONE && hm_tri_set_region(t, tri, region[c.of[tri]]) != HM_OK)
+            err = hm_fail_memory(d);
+    free(region);
+    hm_tri_components_free(&c);
+    return err;
 }
 
 enum hm_err hm_domain_number_vertices(struct hm_domain *dom, struct hm_diag *d)

@@ -2,7 +2,6 @@
 
 #include "hm_elem.h"
 #include "hm_plane.h"
-#include "hm_pred.h"
 #include "hm_tri.h"
 
 #include <math.h>
@@ -12,7 +11,7 @@
 /* Inner nodes keep this part of their size away from the outer sides of the gap. */
 static const double side_clear = 0.4;
 
-enum { MARK = 1, OUTSIDE = 1 }; /* the mark of all constraints; the region beyond the hull */
+enum { MARK = 1 }; /* of all constraints */
 
 /* All that belongs to one gap. */
 struct gap {
@@ -214,70 +213,14 @@ static enum hm_err triangulate(struct gap *g, struct hm_diag *d)
 
 /* --- which triangles fill the gap --- */
 
-static void centre(const struct hm_tri *t, int32_t k, double xy[2])
-{
-    const double *a = hm_tri_xy(t, hm_tri_org(t, 3 * k)), *b = hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
-                 *c = hm_tri_xy(t, hm_tri_apex(t, 3 * k));
-    xy[0] = a[0] + ((b[0] - a[0]) + (c[0] - a[0])) / 3;
-    xy[1] = a[1] + ((b[1] - a[1]) + (c[1] - a[1])) / 3;
-}
-
-/* Twice its area. */
-static double area_of(const struct hm_tri *t, int32_t k)
-{
-    int32_t e = 3 * k;
-    return hm_area2(hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e)),
-                    hm_tri_xy(t, hm_tri_apex(t, e)));
-}
-
-/* Regions of triangles between constraints, numbered from 2; what hangs together with the outside
- * of the hull is OUTSIDE. */
-static enum hm_err number_regions(struct hm_tri *t, int32_t *regions, struct hm_diag *d)
-{
-    int32_t n = OUTSIDE;
-    enum hm_err err = HM_OK;
-    for (int32_t e = 0; !err && e < 3 * hm_tri_triangles(t); e++) {
-        if (!hm_tri_is_solid(t, e / 3) || hm_tri_is_solid(t, hm_tri_twin(t, e) / 3))
-            continue;
-        err = hm_tri_flood(t, hm_tri_twin(t, e) / 3, MARK, OUTSIDE, d);
-        break;
-    }
-    for (int32_t k = 0; !err && k < hm_tri_triangles(t); k++)
-        if (hm_tri_is_solid(t, k) && hm_tri_region(t, k) == 0)
-            err = hm_tri_flood(t, k, MARK, ++n, d);
-    *regions = n + 1;
-    return err;
-}
-
-/* A region is gap when the middle of its largest triangle lies where elements were cut away, and
+/* A component is gap when the middle of its largest triangle lies where elements were cut away, and
  * not in the higher mesh: so near nothing that rounding could matter. */
 static bool is_gap(const struct gap *g, int32_t largest)
 {
     double p[2];
-    centre(g->tri, largest, p);
+    hm_tri_centre(g->tri, largest, p);
     int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
     return was >= 0 && g->s.gone[was] && hm_locate_element(g->s.in_higher, p[0], p[1]) < 0;
-}
-
-static enum hm_err find_gaps(const struct gap *g, int32_t regions, bool *gap, struct hm_diag *d)
-{
-    const struct hm_tri *t = g->tri;
-    int32_t *largest = hm_alloc((size_t)regions, sizeof *largest);
-    if (!largest)
-        return hm_fail_memory(d);
-    for (int32_t r = 0; r < regions; r++)
-        largest[r] = HM_TRI_NONE;
-    for (int32_t k = 0; k < hm_tri_triangles(t); k++) {
-        if (!hm_tri_is_solid(t, k))
-            continue;
-        int32_t *best = &largest[hm_tri_region(t, k)];
-        if (*best == HM_TRI_NONE || area_of(t, k) > area_of(t, *best))
-            *best = k;
-    }
-    for (int32_t r = OUTSIDE + 1; r < regions; r++)
-        gap[r] = largest[r] != HM_TRI_NONE && is_gap(g, largest[r]);
-    free(largest);
-    return HM_OK;
 }
 
 static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t region,
@@ -288,7 +231,7 @@ static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t region,
         return hm_fail_memory(d);
     tri = &seam->triangle[seam->n++];
     double p[2];
-    centre(g->tri, k, p);
+    hm_tri_centre(g->tri, k, p);
     int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
     tri->region = was >= 0 ? g->s.lower->elem[was].region : region;
     const int32_t corner[3] = {hm_tri_org(g->tri, 3 * k), hm_tri_dest(g->tri, 3 * k),
@@ -304,20 +247,23 @@ static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t region,
     return HM_OK;
 }
 
+/* Component 0 is what hangs together with the outside of the hull. */
 static enum hm_err take_gaps(const struct gap *g, struct hm_seam *seam, struct hm_diag *d)
 {
-    int32_t regions;
-    enum hm_err err = number_regions(g->tri, &regions, d);
+    struct hm_tri_components c;
+    enum hm_err err = hm_tri_components(g->tri, MARK, &c, d);
     if (err)
         return err;
-    bool *gap = hm_alloc0((size_t)regions, sizeof *gap);
+    bool *gap = hm_alloc0((size_t)c.n, sizeof *gap);
     if (!gap)
-        return hm_fail_memory(d);
-    err = find_gaps(g, regions, gap, d);
+        err = hm_fail_memory(d);
+    for (int32_t i = 1; !err && i < c.n; i++)
+        gap[i] = is_gap(g, c.largest[i]);
     for (int32_t k = 0; !err && k < hm_tri_triangles(g->tri); k++)
-        if (hm_tri_is_solid(g->tri, k) && gap[hm_tri_region(g->tri, k)])
+        if (hm_tri_is_solid(g->tri, k) && gap[c.of[k]])
             err = take_triangle(g, k, g->s.lower->elem[0].region, seam, d);
     free(gap);
+    hm_tri_components_free(&c);
     return err;
 }
 

@@ -51,8 +51,9 @@
  *     }
  *
  * Memory: 72 bytes a point as built, the given points not counted; 4 more once it is edited, 24
- * with constraints, 8 with regions. At most INT32_MAX / 6 points. A function that fails with
- * HM_ENOMEM leaves the triangulation valid, or (hm_tri_build) none.
+ * with constraints, 8 with regions. At most INT32_MAX / 6 vertices, those taken out included; what
+ * would be one more fails with HM_ENOMEM. A function that fails so leaves the triangulation valid,
+ * or (hm_tri_build) none.
  */
 #ifndef HM_TRI_H
 #define HM_TRI_H
@@ -104,11 +105,19 @@ static inline int32_t hm_tri_prev(int32_t e)
 /* --- constraints --- */
 
 /* What was mended while segments went in. */
+enum hm_tri_mend {
+    HM_TRI_CROSSING,    /* segments that crossed: a vertex at the (rounded) intersection */
+    HM_TRI_ON_SEGMENT,  /* a vertex that lay on a segment and split it */
+    HM_TRI_OVERLAP,     /* a piece that was constrained already; its middle */
+    HM_TRI_ZERO_LENGTH, /* a segment whose ends are one vertex: dropped */
+    HM_TRI_MENDS        /* how many kinds there are */
+};
+
+/* How often, by kind; and, when `tell` is set, each at once with its place. */
 struct hm_tri_mends {
-    int64_t crossings;   /* segments that crossed: a vertex at the (rounded) intersection */
-    int64_t on_segment;  /* vertices that lay on a segment and split it */
-    int64_t overlaps;    /* pieces that were constrained already */
-    int64_t zero_length; /* segments whose ends are one vertex: dropped */
+    int64_t n[HM_TRI_MENDS];
+    void (*tell)(void *who, enum hm_tri_mend what, double x, double y);
+    void *who;
 };
 
 /* A segment between two vertices, with marks: any bits the caller likes, not 0. Pieces that were
@@ -119,12 +128,16 @@ struct hm_tri_segment {
 };
 
 /* Put segments in, so that each is a chain of edges, and the triangulation constrained Delaunay.
- * mends may be NULL and is added to. */
+ * mends may be NULL and is added to. HM_EARG, with nothing changed, when one has no marks or an end
+ * that is no vertex (any more). */
 enum hm_err hm_tri_constrain(struct hm_tri *t, const struct hm_tri_segment *s, size_t n,
                              struct hm_tri_mends *mends, struct hm_diag *d);
 
-int32_t hm_tri_marks(const struct hm_tri *t, int32_t e);        /* 0: not a constraint */
-void hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks); /* take bits off, from both sides */
+int32_t hm_tri_marks(const struct hm_tri *t, int32_t e); /* 0: not a constraint */
+
+/* Take bits off, from both sides of e. An edge left without any is no constraint any more: what is
+ * around becomes Delaunay again, by which triangles may change, also between two regions. */
+enum hm_err hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks, struct hm_diag *d);
 
 /* Regions: a number a triangle, 0 at first. Give `region` to every triangle that can be reached
  * from `tri` without crossing an edge that has any of the bits `stop`. Reaches ghosts too; from
@@ -133,6 +146,22 @@ int32_t hm_tri_region(const struct hm_tri *t, int32_t tri);
 enum hm_err hm_tri_set_region(struct hm_tri *t, int32_t tri, int32_t region); /* or HM_ENOMEM */
 enum hm_err hm_tri_flood(struct hm_tri *t, int32_t tri, int32_t stop, int32_t region,
                          struct hm_diag *d);
+
+/* What the edges with any of the bits `stop` part the plane into, all in one pass: the number of
+ * each triangle's component. 0 is that of all ghosts, and of what hangs together with them; the
+ * others have 1, 2, … in the order of their lowest triangle. */
+struct hm_tri_components {
+    int32_t n;
+    int32_t *of;      /* by triangle, ghosts included; HM_TRI_NONE: a free slot */
+    int32_t *largest; /* by component: its triangle of the largest area, whose centre is far from
+                         all borders; HM_TRI_NONE when it has ghosts only */
+};
+enum hm_err hm_tri_components(const struct hm_tri *t, int32_t stop, struct hm_tri_components *c,
+                              struct hm_diag *d);
+void hm_tri_components_free(struct hm_tri_components *c);
+
+/* The centre of gravity of a solid triangle, rounded. */
+void hm_tri_centre(const struct hm_tri *t, int32_t tri, double xy[2]);
 
 /* --- editing: every call keeps it constrained Delaunay --- */
 

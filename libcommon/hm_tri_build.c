@@ -9,7 +9,7 @@
 
 static enum hm_err check_input(const double *xy, size_t n, size_t stride, struct hm_diag *d)
 {
-    if (n > INT32_MAX / 6)
+    if (n > HM_TRI_MOST_VERTICES)
         return hm_fail(d, HM_ENOMEM, "%zu points are too many for one triangulation", n);
     for (size_t i = 0; i < n; i++)
         if (!isfinite(xy[i * stride]) || !isfinite(xy[i * stride + 1]))

@@ -41,10 +41,25 @@ static enum hm_err push(struct constrain *c, struct task task)
     return HM_OK;
 }
 
+static void count(struct constrain *c, enum hm_tri_mend what, double x, double y)
+{
+    c->mends->n[what]++;
+    if (c->mends->tell)
+        c->mends->tell(c->mends->who, what, x, y);
+}
+
+static void count_at(struct constrain *c, enum hm_tri_mend what, int32_t v)
+{
+    count(c, what, hm_tri_at(c->t, v)[0], hm_tri_at(c->t, v)[1]);
+}
+
 static void mark(struct constrain *c, int32_t e, int32_t marks)
 {
     int32_t before = c->t->marks[e];
-    c->mends->overlaps += before != 0;
+    const double *p = hm_tri_at(c->t, c->t->half[e].org);
+    const double *q = hm_tri_at(c->t, hm_tri_dest_of(c->t, e));
+    if (before)
+        count(c, HM_TRI_OVERLAP, p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2);
     hm_tri_set_marks(c->t, e, before | marks);
 }
 
@@ -161,16 +176,6 @@ static bool is_near(const double *p, const double *a, const double *b, double di
     return hypot(p[0] - (a[0] + part * dx), p[1] - (a[1] + part * dy)) <= distance;
 }
 
-/* Take a constraint off edge e, and restore the Delaunay property. */
-static enum hm_err release(struct constrain *c, int32_t e)
-{
-    hm_tri_set_marks(c->t, e, 0);
-    if (!hm_grow(&c->t->stack, &c->t->cap_stack, 1, sizeof *c->t->stack))
-        return hm_fail_memory(c->d);
-    c->t->stack[0] = e;
-    return hm_tri_legalize(c->t, 1, c->d);
-}
-
 /* The vertex that the crossing of a b and u w shall go through, when it is one of these four; p is
  * the intersection. An end so near the other segment that rounding cannot tell it from the
  * intersection is taken for it: lines that all but coincide would cross again and again, each
@@ -202,14 +207,17 @@ static enum hm_err cross(struct constrain *c, struct task s, int32_t e)
     double p[2];
     intersect(&quad, p);
     int32_t v = choose_end(&quad, ends, p, s.bends);
-    c->mends->crossings++;
+    if (v == HM_TRI_NONE)
+        count(c, HM_TRI_CROSSING, p[0], p[1]);
+    else
+        count_at(c, HM_TRI_CROSSING, v);
     enum hm_err err = HM_OK;
     bool leads = v != u && v != w; /* must e be led to the vertex? */
     if (v == HM_TRI_NONE && hm_tri_can_split(t, e, p)) {
         leads = false;
         err = hm_tri_split(t, e, p[0], p[1], &v, c->d);
     } else if (leads) {
-        err = release(c, e);
+        err = hm_tri_unmark(t, e, marks, c->d);
         if (!err && v == HM_TRI_NONE)
             err = hm_tri_insert(t, p[0], p[1], e / 3, &v, c->d);
     }
@@ -243,9 +251,26 @@ static enum hm_err put_in(struct constrain *c, struct task s)
         err = cut(c, s.a, piece.end, s.marks);
     if (err || piece.end == s.b)
         return err;
-    c->mends->on_segment++;
+    count_at(c, HM_TRI_ON_SEGMENT, piece.end);
     s.a = piece.end;
     return push(c, s);
+}
+
+static bool is_vertex(const struct hm_tri *t, int32_t v)
+{
+    return v >= 0 && v < t->vertices && hm_tri_is_used(t, v);
+}
+
+static enum hm_err check(const struct hm_tri *t, const struct hm_tri_segment *s, size_t n,
+                         struct hm_diag *d)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (s[i].marks == 0)
+            return hm_fail(d, HM_EARG, "segment %zu has no marks", i);
+        if (!is_vertex(t, s[i].a) || !is_vertex(t, s[i].b))
+            return hm_fail(d, HM_EARG, "an end of segment %zu is no vertex", i);
+    }
+    return HM_OK;
 }
 
 enum hm_err hm_tri_constrain(struct hm_tri *t, const struct hm_tri_segment *s, size_t n,
@@ -253,11 +278,14 @@ enum hm_err hm_tri_constrain(struct hm_tri *t, const struct hm_tri_segment *s, s
 {
     struct hm_tri_mends unasked = {0};
     struct constrain c = {.t = t, .mends = mends ? mends : &unasked, .d = d};
-    enum hm_err err = hm_tri_need_edges(t, d);
+    enum hm_err err = check(t, s, n, d);
+    if (!err)
+        err = hm_tri_need_edges(t, d);
     if (!err)
         err = hm_tri_need_marks(t, d);
     for (size_t i = 0; !err && i < n; i++) {
-        c.mends->zero_length += s[i].a == s[i].b;
+        if (s[i].a == s[i].b)
+            count_at(&c, HM_TRI_ZERO_LENGTH, s[i].a);
         err = push(&c, (struct task){s[i].a, s[i].b, s[i].marks, 0});
         while (!err && c.n > 0)
             err = put_in(&c, c.task[--c.n]);

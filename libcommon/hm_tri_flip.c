@@ -1,4 +1,4 @@
-/* hm_tri_flip: edges turned until all are locally Delaunay. */
+/* hm_tri_flip: edges turned until all are locally Delaunay; constraints let go. */
 #include "hm_tri_topology.h"
 
 void hm_tri_flip(struct hm_tri *t, int32_t e)
@@ -62,4 +62,19 @@ enum hm_err hm_tri_legalize(struct hm_tri *t, size_t n, struct hm_diag *d)
         t->stack[n++] = hm_tri_prev(f);
     }
     return HM_OK;
+}
+
+enum hm_err hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks, struct hm_diag *d)
+{
+    int32_t left = hm_tri_marks_of(t, e) & ~marks;
+    if (left == hm_tri_marks_of(t, e))
+        return HM_OK;
+    enum hm_err err = hm_tri_need_edges(t, d);
+    if (!err && !hm_grow(&t->stack, &t->cap_stack, 1, sizeof *t->stack))
+        err = hm_fail_memory(d);
+    if (err)
+        return err;
+    hm_tri_set_marks(t, e, left);
+    t->stack[0] = e;
+    return hm_tri_legalize(t, 1, d); /* which leaves alone what still has marks */
 }

@@ -103,54 +103,6 @@ int32_t hm_tri_marks(const struct hm_tri *t, int32_t e)
     return hm_tri_marks_of(t, e);
 }
 
-void hm_tri_unmark(struct hm_tri *t, int32_t e, int32_t marks)
-{
-    if (t->marks)
-        hm_tri_set_marks(t, e, t->marks[e] & ~marks);
-}
-
-int32_t hm_tri_region(const struct hm_tri *t, int32_t tri)
-{
-    return t->region ? t->region[tri] : 0;
-}
-
-enum hm_err hm_tri_set_region(struct hm_tri *t, int32_t tri, int32_t region)
-{
-    enum hm_err err = region || t->region ? hm_tri_need_regions(t, NULL) : HM_OK;
-    if (!err && t->region)
-        t->region[tri] = region;
-    return err;
-}
-
-enum hm_err hm_tri_flood(struct hm_tri *t, int32_t tri, int32_t stop, int32_t region,
-                         struct hm_diag *d)
-{
-    enum hm_err err = hm_tri_need_regions(t, d);
-    if (err)
-        return err;
-    size_t words = ((size_t)t->triangles + 31) / 32, n = 0;
-    uint32_t *seen = hm_alloc0(words, sizeof *seen);
-    if (!seen || !hm_grow(&t->stack, &t->cap_stack, (size_t)t->triangles, sizeof *t->stack)) {
-        free(seen);
-        return hm_fail_memory(d);
-    }
-    seen[tri / 32] |= 1u << tri % 32;
-    t->stack[n++] = tri;
-    while (n > 0) {
-        int32_t here = t->stack[--n];
-        t->region[here] = region;
-        for (int32_t e = 3 * here; e < 3 * here + 3; e++) {
-            int32_t beyond = t->half[e].twin / 3;
-            if ((hm_tri_marks_of(t, e) & stop) || (seen[beyond / 32] >> beyond % 32 & 1))
-                continue;
-            seen[beyond / 32] |= 1u << beyond % 32;
-            t->stack[n++] = beyond;
-        }
-    }
-    free(seen);
-    return HM_OK;
-}
-
 enum hm_err hm_tri_need_edges(struct hm_tri *t, struct hm_diag *d)
 {
     if (t->edge)
@@ -189,11 +141,11 @@ enum hm_err hm_tri_need_triangles(struct hm_tri *t, int32_t more, struct hm_diag
     size_t need = (size_t)t->triangles + (size_t)more;
     if (need <= t->cap_triangles)
         return HM_OK;
-    if (need > INT32_MAX / 3)
-        return hm_fail(d, HM_ENOMEM, "too many triangles");
+    if (need > HM_TRI_MOST_TRIANGLES)
+        return hm_fail(d, HM_ENOMEM, "too many triangles for one triangulation");
     size_t room = need + need / 2;
-    if (room > INT32_MAX / 3)
-        room = INT32_MAX / 3;
+    if (room > HM_TRI_MOST_TRIANGLES)
+        room = HM_TRI_MOST_TRIANGLES;
     if (!regrow(&t->half, 3 * t->cap_triangles, 3 * room, sizeof *t->half) ||
         (t->marks && !regrow(&t->marks, 3 * t->cap_triangles, 3 * room, sizeof *t->marks)) ||
         (t->region && !regrow(&t->region, t->cap_triangles, room, sizeof *t->region)))
@@ -204,9 +156,14 @@ enum hm_err hm_tri_need_triangles(struct hm_tri *t, int32_t more, struct hm_diag
 
 enum hm_err hm_tri_need_vertices(struct hm_tri *t, int32_t more, struct hm_diag *d)
 {
-    size_t need = (size_t)t->vertices + (size_t)more, room = need + need / 2;
+    size_t need = (size_t)t->vertices + (size_t)more;
     if (need <= t->cap_vertices)
         return HM_OK;
+    if (need > HM_TRI_MOST_VERTICES)
+        return hm_fail(d, HM_ENOMEM, "too many vertices for one triangulation");
+    size_t room = need + need / 2;
+    if (room > HM_TRI_MOST_VERTICES)
+        room = HM_TRI_MOST_VERTICES;
     if (!regrow(&t->xy, 2 * t->cap_vertices, 2 * room, sizeof *t->xy) ||
         !regrow(&t->edge, t->cap_vertices, room, sizeof *t->edge) ||
         !regrow(&t->input, t->cap_vertices, room, sizeof *t->input))

@@ -5,7 +5,7 @@
  *
  * The layers, each on those before it: topology (this), conquer and build, locate, flip and fill
  * (the two ways to restore the Delaunay property), edit (insert, split, remove, move), constrain;
- * check stands beside them.
+ * check and regions stand beside them.
  */
 #ifndef HM_TRI_TOPOLOGY_H
 #define HM_TRI_TOPOLOGY_H
@@ -14,6 +14,9 @@
 #include "hm_tri.h"
 
 enum { HM_TRI_FREE = -2 }; /* org of the first half-edge of a free slot */
+
+/* Numbers of half-edges are int32_t. A vertex taken out keeps its number, and counts. */
+enum { HM_TRI_MOST_TRIANGLES = INT32_MAX / 3, HM_TRI_MOST_VERTICES = INT32_MAX / 6 };
 
 struct hm_tri_half {
     int32_t org, twin; /* in a free slot the first twin is the next free slot, or HM_TRI_NONE */

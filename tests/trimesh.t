@@ -90,6 +90,7 @@ square 21 >square.xyz
 printf '> \n2.5 2.5\n17.5 17.5\n> \n2.5 16.9\n17.5 2.2\n> \n2.5 2.5\n17.5 17.5\n' >cross.txt
 says "crossing and double breaklines" 'lines mended: 1 crossings.* [1-9][0-9]* pieces drawn twice' \
     trimesh -l 2 square.xyz cross.txt -o cross.hm
+says "with -v each with its place" 'lines cross at 9[0-9.]* 9[0-9.]*$' trimesh -v -l 2 square.xyz cross.txt -o cross.hm
 ok "their heights come from the terrain" grep -q '6 vertices of breaklines' said
 must_fail "--strict" 1 'lines mended' trimesh --strict -l 2 square.xyz cross.txt
 cat square.xyz square.xyz >twice.xyz

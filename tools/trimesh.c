@@ -95,6 +95,13 @@ static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inpu
 
 /* --- the mesh around --- */
 
+static void say_mend(void *cli, enum hm_tri_mend what, double x, double y)
+{
+    static const char *const name[HM_TRI_MENDS] = {"lines cross", "a node on a line",
+                                                   "a piece drawn twice", "a piece without length"};
+    hm_cli_say(cli, "%s at %.12g %.12g", name[what], x, y);
+}
+
 static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
 {
     hm_cli_mended(cli, c->duplicates,
@@ -212,7 +219,9 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                                          .terrain = terrain,
                                          .clearance = cmd.clearance,
                                          .line_z_terrain = cmd.line_z == LINE_TERRAIN,
-                                         .threads = hm_cli_threads(cli)};
+                                         .threads = hm_cli_threads(cli),
+                                         .mended = hm_cli_verbose(cli) ? say_mend : NULL,
+                                         .who = cli};
     hm_cli_check(cli, hm_assemble(&assembly, dom, &counts, &d), &d);
     say_assembly(cli, &counts);
     int64_t trimmed;

@@ -180,6 +180,14 @@ static void location(void)
     }
     ok(wrong == 0 && outside > 1000, "20000 points located, %d outside", outside);
     ok(hm_tri_locate(t, NAN, 0, NULL) == HM_TRI_NONE, "nowhere is nowhere");
+    const double nowhere[14] = {NAN, 1,         1,     INFINITY, -INFINITY, NAN, 1,
+                                1,   -INFINITY, 1e308, -1e308,   1e308,     5,   5};
+    for (size_t n = 0; n <= 7; n++) { /* the first three alone too */
+        wrong += hm_tri_locate_all(t, nowhere, n, 2, 1, tri, NULL) != HM_OK;
+        for (size_t i = 0; i < n; i++)
+            wrong += (tri[i] != HM_TRI_NONE) != (i == 3 || i == 6);
+    }
+    ok(wrong == 0, "nor is it in bulk");
     hm_tri_free(t);
     free(xy);
     free(at);

@@ -149,7 +149,8 @@ static void dirty(void (*make)(struct drawing *), const char *name, int drawings
             print(&g);
     }
     ok(good, "%d drawings %s: %lld crossings, %lld vertices on segments, %lld overlaps", drawings,
-       name, (long long)mends.crossings, (long long)mends.on_segment, (long long)mends.overlaps);
+       name, (long long)mends.n[HM_TRI_CROSSING], (long long)mends.n[HM_TRI_ON_SEGMENT],
+       (long long)mends.n[HM_TRI_OVERLAP]);
 }
 
 /* Many segments through a lattice, where every one runs over vertices. */
@@ -170,7 +171,7 @@ static void through_lattice(void)
         good = !hm_tri_constrain(t, s, 2, &mends, NULL);
     }
     ok(good && is_sound(t), "120 segments through the middle of a lattice, %lld crossings",
-       (long long)mends.crossings);
+       (long long)mends.n[HM_TRI_CROSSING]);
     hm_tri_free(t);
     free(xy);
 }
@@ -201,32 +202,67 @@ static void long_segment(void)
     free(xy);
 }
 
-/* A square with a square hole: regions, and marks taken off again. */
-static void regions(void)
+/* What was told, kind by kind: how often and where last. */
+struct told {
+    int64_t n[HM_TRI_MENDS];
+    double place[HM_TRI_MENDS][2];
+};
+
+static void note(void *who, enum hm_tri_mend what, double x, double y)
 {
-    double xy[16] = {0, 0, 9, 0, 9, 9, 0, 9, 3, 3, 6, 3, 6, 6, 3, 6};
+    struct told *told = who;
+    told->n[what]++;
+    told->place[what][0] = x;
+    told->place[what][1] = y;
+}
+
+static void told_by_place(void)
+{
+    static const double xy[] = {0, 0, 8, 0, 8, 8, 0, 8, 6, 6, 20, 20};
+    static const double want[HM_TRI_MENDS][2] = {{4, 4}, {6, 6}, {2, 6}, {20, 20}};
     struct hm_tri *t;
-    struct hm_tri_segment s[4];
-    if (hm_tri_build(&t, xy, 8, 2, 1, NULL))
+    struct told told = {0};
+    struct hm_tri_mends mends = {.tell = note, .who = &told};
+    if (hm_tri_build(&t, xy, 6, 2, 1, NULL))
         exit(2);
-    for (int i = 0; i < 4; i++)
-        s[i] = (struct hm_tri_segment){hm_tri_of_input(t, (size_t)(4 + i)),
-                                       hm_tri_of_input(t, (size_t)(4 + (i + 1) % 4)), 1};
-    bool good = !hm_tri_constrain(t, s, 4, NULL, NULL) &&
-                !hm_tri_flood(t, hm_tri_locate(t, 4, 5, NULL), 1, 5, NULL);
-    double area[2] = {0, 0};
-    for (int32_t k = 0; k < hm_tri_triangles(t); k++)
-        if (hm_tri_is_solid(t, k))
-            area[hm_tri_region(t, k) == 5] +=
-                hm_area2(hm_tri_xy(t, hm_tri_org(t, 3 * k)), hm_tri_xy(t, hm_tri_dest(t, 3 * k)),
-                         hm_tri_xy(t, hm_tri_apex(t, 3 * k)));
-    ok(good && area[0] == 2 * 72 && area[1] == 2 * 9, "a region is what its constraints enclose");
-    int32_t e = hm_tri_edge_between(t, s[0].a, s[0].b);
-    hm_tri_unmark(t, e, 1);
-    good = !hm_tri_flood(t, hm_tri_locate(t, 4, 5, NULL), 1, 6, NULL) && hm_tri_marks(t, e) == 0;
-    for (int32_t k = 0; k < hm_tri_triangles(t); k++)
-        good = good && hm_tri_region(t, k) == 6;
-    ok(good, "a gap lets the flood out, to beyond the hull");
+    int32_t v[6];
+    for (int i = 0; i < 6; i++)
+        v[i] = hm_tri_of_input(t, (size_t)i);
+    const struct hm_tri_segment s[4] = {{v[0], v[2], 1}, /* over 6 6 */
+                                        {v[1], v[3], 1}, /* crosses it at 4 4 */
+                                        {v[5], v[5], 1},
+                                        {v[3], v[1], 2}}; /* again, in two pieces; by 4 4 */
+    bool good = !hm_tri_constrain(t, s, 3, &mends, NULL);
+    good = good && mends.n[HM_TRI_OVERLAP] == 0 && mends.n[HM_TRI_ON_SEGMENT] == 1;
+    good = good && !hm_tri_constrain(t, s + 3, 1, NULL, NULL);
+    struct hm_tri_segment piece = {
+        hm_tri_dest(t, hm_tri_edge_between(t, v[3], hm_tri_vertices(t) - 1)), v[3], 4};
+    good = good && !hm_tri_constrain(t, &piece, 1, &mends, NULL);
+    for (int k = 0; k < HM_TRI_MENDS; k++)
+        good = good && mends.n[k] == 1 && told.n[k] == 1 && told.place[k][0] == want[k][0] &&
+               told.place[k][1] == want[k][1];
+    ok(good, "what is mended is told, each with its place");
+    hm_tri_free(t);
+}
+
+static void refusals(void)
+{
+    static const double xy[] = {0, 0, 8, 0, 8, 8, 0, 8, 3, 4};
+    struct hm_tri *t;
+    if (hm_tri_build(&t, xy, 5, 2, 1, NULL))
+        exit(2);
+    int32_t gone = hm_tri_of_input(t, 4), a = hm_tri_of_input(t, 0), c = hm_tri_of_input(t, 2);
+    bool good = !hm_tri_remove(t, gone, NULL);
+    const struct hm_tri_segment bad[6] = {{a, c, 0},  {a, gone, 1},      {gone, gone, 1},
+                                          {-1, a, 1}, {a, INT32_MAX, 1}, {INT32_MIN, INT32_MIN, 1}};
+    for (int i = 0; i < 6; i++) {
+        struct hm_diag d = {0};
+        const struct hm_tri_segment s[2] = {{a, c, 1}, bad[i]};
+        good = good && hm_tri_constrain(t, s, 2, NULL, &d) == HM_EARG && d.text[0];
+    }
+    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++)
+        good = good && hm_tri_marks(t, e) == 0;
+    ok(good && is_sound(t), "no marks, vertices taken out, and what is no vertex: nothing is done");
     hm_tri_free(t);
 }
 
@@ -242,6 +278,7 @@ int main(int argc, char **argv)
     dirty(of_all_sizes, "of 1e300 and 1e-300", drawings / 4);
     through_lattice();
     long_segment();
-    regions();
+    told_by_place();
+    refusals();
     return done();
 }

@@ -1,7 +1,7 @@
 /* Vertices put in, split off, taken out and moved: the triangulation must be the one that is built
  * from the points that are left, and sound after every step. */
 #include "hm_pred.h"
-#include "hm_tri.h"
+#include "hm_tri_topology.h"
 #include "tap.h"
 #include "tri_points.h"
 
@@ -215,9 +215,29 @@ static void refusals(void)
     ok(hm_tri_move(t, loose, 5, 5, NULL) == HM_EARG &&
            hm_tri_move(t, loose, -1, -1, NULL) == HM_EARG,
        "no move beyond the hull or onto another");
+    ok(hm_tri_move(t, -1, 0, 0, NULL) == HM_EARG && hm_tri_move(t, 99, 0, 0, NULL) == HM_EARG &&
+           hm_tri_move(t, INT32_MIN, 0, 0, NULL) == HM_EARG &&
+           hm_tri_move(t, loose, NAN, 0, NULL) == HM_EARG,
+       "nor of what is no vertex, nor to nowhere");
     ok(!hm_tri_insert(t, -1, -1, HM_TRI_NONE, &v, NULL) && v == corner, "a vertex there is found");
     ok(is_sound(t) && !hm_tri_remove(t, loose, NULL) && !hm_tri_is_used(t, loose) && is_sound(t),
        "all as it was");
+    ok(hm_tri_remove(t, loose, NULL) == HM_EARG && hm_tri_move(t, loose, 0, 0, NULL) == HM_EARG,
+       "what is out is neither taken out again nor moved");
+    hm_tri_free(t);
+}
+
+/* Numbers of vertices, those taken out included, and of half-edges come to an end. */
+static void limits(void)
+{
+    struct hm_tri *t = square(1);
+    struct hm_diag d = {0};
+    ok(hm_tri_need_vertices(t, HM_TRI_MOST_VERTICES, &d) == HM_ENOMEM && strstr(d.text, "vertices"),
+       "no more vertices than there are numbers");
+    d = (struct hm_diag){0};
+    ok(hm_tri_need_triangles(t, HM_TRI_MOST_TRIANGLES, &d) == HM_ENOMEM &&
+           strstr(d.text, "triangles"),
+       "no more triangles than there are numbers of half-edges");
     hm_tri_free(t);
 }
 
@@ -227,5 +247,6 @@ int main(void)
     splits();
     within_constraints();
     refusals();
+    limits();
     return done();
 }

@@ -53,6 +53,11 @@ static enum hm_err exercise(struct hm_tri *t, const double *xy, struct hm_diag *
         err = hm_tri_constrain(t, s, 12, NULL, d);
     if (!err)
         err = hm_tri_flood(t, 0, 1, 3, d);
+    struct hm_tri_components c;
+    if (!err && !(err = hm_tri_components(t, 1, &c, d)))
+        hm_tri_components_free(&c);
+    for (int32_t e = 0; !err && e < 60; e++)
+        err = hm_tri_unmark(t, e, 1, d);
     for (int i = 0; !err && i < 400; i++) {
         double x = 1.2 * uniform() - 0.1, y = 1.2 * uniform() - 0.1;
         enum hm_err done = HM_OK;

@@ -23,6 +23,8 @@ PROGRAMS     := $(SCHEME) $(filter-out $(MISSING),$(COMPANIONS))
 
 B := build$(if $(SANITIZE),/san)
 Q := $(if $(V),,@)
+# Targets that build before they run do so on all cores, unless make was told how many.
+JOBS = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
 
 # -ffp-contract=off: the exact predicates depend on every operation being rounded by itself.
 WARN   := -Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes
@@ -106,7 +108,7 @@ $(eval $(call test_program,tests/gen))
 DEMO_LINES := $(if $(filter command,$(origin LINES)),$(LINES))
 
 demo: deps-quiet
-	$(Q)$(MAKE) --no-print-directory all $(GEN)
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN)
 	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(DEMO_LINES)' D='$(D)' tests/demo
 
 # The pictures of the README, from the demo.
@@ -114,11 +116,11 @@ pictures: demo
 	$(Q)$(B)/bin/hmdraw -s 1000 -l 16 -o man/hybrid.png demo/dem.hm demo/hybrid.hm
 
 check: deps-quiet
-	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)
 	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/*.t) $(UNIT))
 
 check-long: deps-quiet
-	$(Q)$(MAKE) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)
 	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/long/*.t))
 
 check-san:

@@ -93,6 +93,7 @@ for bad in one line equal; do
         bsgrid -m mean -R 0/5/0/5 $bad.xyz
     refuses "bsmesh: a terrain of $bad.xyz" "terrain|point|line" \
         bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm $bad.xyz
+    refuses "quality: $bad.xyz beside the mesh" "no measurement|outside" quality hybrid.hm $bad.xyz
 done
 
 # The wrong kind of input.

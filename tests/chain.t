@@ -18,7 +18,7 @@ command_of() {
     regular) echo "bsmesh -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz" ;;
     river) echo "stitch -c regular.hm survey.xyz" ;;
     flood) echo "trimesh -l 6 -L 20 survey.xyz breaklines.hm lines.txt river.hm" ;;
-    hybrid) echo "stitch river.hm flood.hm" ;;
+    hybrid) echo "stitch river.hm flood.hm lines.txt" ;;
     esac
 }
 for file in dem slope breaklines regular river flood hybrid; do

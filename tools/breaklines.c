@@ -7,6 +7,7 @@
 #include "hm_polyline.h"
 #include "hm_simplify.h"
 #include "hm_slope.h"
+#include "hm_uncross.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -192,24 +193,24 @@ static struct source open_slope(struct hm_cli *cli, const struct hm_header *heig
 
 /* --- lines out --- */
 
-static enum hm_err write_line(struct tool *t, struct hm_line *line, struct hm_diag *d)
+static enum hm_err write_line(struct tool *t, const struct hm_line *line, struct hm_diag *d)
 {
     struct hm_line out = *line;
-    enum hm_err err = HM_OK;
-    if (cmd.resampled)
-        err = hm_polyline_resample(line, cmd.resample, &out.xyz, &out.n, d);
     char number[HM_NUM_CHARS];
-    if (!err) {
-        number[hm_num_print_fixed(number, hm_polyline_length(&out), 3)] = 0;
-        out.attrs = hm_attr_set(line->attrs, "length", number);
-        err = out.attrs ? hm_writer_line(hm_cli_writer(t->cli), &out, d) : hm_fail_memory(d);
-        free(out.attrs);
-        t->written++;
-        t->written_vertices += (int64_t)out.n;
-    }
-    if (cmd.resampled && out.xyz != line->xyz)
-        free(out.xyz);
+    number[hm_num_print_fixed(number, hm_polyline_length(line), 3)] = 0;
+    out.attrs = hm_attr_set(line->attrs, "length", number);
+    enum hm_err err =
+        out.attrs ? hm_writer_line(hm_cli_writer(t->cli), &out, d) : hm_fail_memory(d);
+    free(out.attrs);
+    t->written++;
+    t->written_vertices += (int64_t)out.n;
     return err;
+}
+
+/* Lines must not cross, so all are to be known before any of them changes. */
+static bool changes_lines(void)
+{
+    return cmd.smoothed || cmd.simplified || cmd.resampled;
 }
 
 /* A line as it was found: clean it, judge it, and let it out unless all are needed first. */
@@ -228,10 +229,7 @@ static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_d
         t->dropped++;
         return HM_OK;
     }
-    enum hm_err err = cmd.smoothed ? hm_lineedit_smooth(&line, cmd.smooth, d) : HM_OK;
-    if (err)
-        return err;
-    return cmd.simplified ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
+    return changes_lines() ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
 }
 
 /* --- one grid --- */
@@ -305,15 +303,30 @@ static void begin_output(struct hm_cli *cli)
     hm_header_free(&h);
 }
 
+/* Smooth, simplify, resample, and let the lines out. */
+static void write_held(struct tool *t)
+{
+    struct hm_diag d = {0};
+    size_t back = 0, follow = 0;
+    if (cmd.smoothed)
+        hm_cli_check(t->cli, hm_uncross_smooth(&t->held, cmd.smooth, &back, &d), &d);
+    if (cmd.simplified)
+        hm_cli_check(t->cli, hm_simplify(&t->held, cmd.simplify, &d), &d);
+    if (cmd.resampled)
+        hm_cli_check(t->cli, hm_uncross_resample(&t->held, cmd.resample, &follow, &d), &d);
+    for (size_t k = 0; k < t->held.n; k++)
+        hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
+    hm_lines_free(&t->held);
+    if (back + follow > 0)
+        hm_cli_say(t->cli, "%zu vertices not smoothed, %zu pieces not resampled: lines would cross",
+                   back, follow);
+}
+
 static void finish_output(struct tool *t)
 {
     struct hm_diag d = {0};
-    if (cmd.simplified) {
-        hm_cli_check(t->cli, hm_simplify(&t->held, cmd.simplify, &d), &d);
-        for (size_t k = 0; k < t->held.n; k++)
-            hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
-        hm_lines_free(&t->held);
-    }
+    if (changes_lines())
+        write_held(t);
     hm_cli_check(t->cli, hm_writer_end(hm_cli_writer(t->cli), &d), &d);
     hm_cli_say(t->cli,
                "%lld lines found (%lld vertices), %lld dropped (shorter than %g m), "

@@ -6,6 +6,7 @@
 #include "hm_polyline.h"
 #include "hm_simplify.h"
 #include "hm_slope.h"
+#include "hm_uncross.h"
 #include "tap.h"
 
 #include <stdlib.h>
@@ -199,6 +200,93 @@ static void test_saddle(void)
     hm_lines_free(&b);
 }
 
+/* Pairs of pieces that cross, by brute force. */
+static size_t count_crossings(const struct hm_lines *lines)
+{
+    size_t crossings = 0;
+    for (size_t a = 0; a < lines->n; a++)
+        for (size_t pa = 0; pa < hm_polyline_pieces(&lines->line[a]); pa++)
+            for (size_t b = a; b < lines->n; b++)
+                for (size_t pb = b == a ? pa + 1 : 0; pb < hm_polyline_pieces(&lines->line[b]);
+                     pb++) {
+                    const double *p = hm_polyline_from(&lines->line[a], pa);
+                    const double *q = hm_polyline_to(&lines->line[a], pa);
+                    const double *r = hm_polyline_from(&lines->line[b], pb);
+                    const double *s = hm_polyline_to(&lines->line[b], pb);
+                    double d1 = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+                    double d2 = (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0]);
+                    double d3 = (s[0] - r[0]) * (p[1] - r[1]) - (s[1] - r[1]) * (p[0] - r[0]);
+                    double d4 = (s[0] - r[0]) * (q[1] - r[1]) - (s[1] - r[1]) * (q[0] - r[0]);
+                    crossings += d1 * d2 < -1e-18 && d3 * d4 < -1e-18;
+                }
+    return crossings;
+}
+
+/* A long line with a bump over the end of each of many short ones, every 10 m. */
+static struct hm_lines make_fence(void)
+{
+    enum { POSTS = 25, BUMP = 6 };
+    struct hm_lines lines = {0};
+    double rail[3 * POSTS * BUMP];
+    for (int k = 0; k < POSTS; k++) {
+        double x = 10 * k, post[] = {x + 5, 0, 1, x + 5, 0.4, 1, x + 5, 0.5 + 0.015 * k, 1};
+        const double bump[BUMP][2] = {{0, 0.5}, {3, 0.4}, {4.6, 0.45},
+                                      {4.9, 1}, {5.1, 1}, {5.5, 0.5}};
+        for (int v = 0; v < BUMP; v++) {
+            double *p = rail + 3 * (k * BUMP + v);
+            p[0] = x + bump[v][0];
+            p[1] = bump[v][1];
+            p[2] = 1;
+        }
+        hm_lines_append(&lines, &(struct hm_line){(char[]){""}, post, 3, false}, NULL);
+    }
+    hm_lines_append(&lines, &(struct hm_line){(char[]){""}, rail, POSTS * BUMP, false}, NULL);
+    return lines;
+}
+
+/* Smoothing and resampling far beyond the distance of the lines. */
+static void test_uncross(void)
+{
+    struct hm_lines fence = make_fence(), *lines = &fence;
+    struct hm_lines plain = {0}, smooth = {0}, equal = {0};
+    size_t kept = 0, moved = 0, same = 0, longest = 0;
+    double farthest = 0;
+    for (size_t k = 0; k < lines->n; k++) {
+        hm_lines_append(&plain, &lines->line[k], NULL);
+        hm_lines_append(&smooth, &lines->line[k], NULL);
+        hm_lines_append(&equal, &lines->line[k], NULL);
+        hm_lineedit_smooth(&plain.line[k], 0.8, NULL);
+    }
+    ok(count_crossings(lines) == 0 && count_crossings(&plain) > 5,
+       "plain smoothing makes lines cross");
+    hm_uncross_smooth(&smooth, 0.8, &kept, NULL);
+    for (size_t k = 0; k < lines->n; k++)
+        for (size_t v = 0; v < 3 * lines->line[k].n; v += 3) {
+            const double *p = smooth.line[k].xyz + v, *q = lines->line[k].xyz + v;
+            double away = hypot(p[0] - q[0], p[1] - q[1]);
+            farthest = fmax(farthest, away);
+            moved += away > 0;
+            same += away == 0;
+        }
+    ok(count_crossings(&smooth) == 0, "smoothed lines do not cross: %zu vertices kept", kept);
+    ok(farthest <= 0.8 + 1e-12 && kept > 0 && moved > same / 2,
+       "the others have moved, none too far (%zu of %zu)", moved, moved + same);
+    hm_uncross_resample(&equal, 3, &kept, NULL);
+    for (size_t k = 0; k < equal.n; k++)
+        for (size_t v = 0; v < hm_polyline_pieces(&equal.line[k]); v++) {
+            const double *p = hm_polyline_from(&equal.line[k], v),
+                         *q = hm_polyline_to(&equal.line[k], v);
+            longest += hypot(q[0] - p[0], q[1] - p[1]) > 4.5;
+        }
+    ok(count_crossings(&equal) == 0 && kept > 0, "resampled lines do not cross: %zu pieces kept",
+       kept);
+    ok(longest == 0, "their pieces are as long as told, or shorter");
+    hm_lines_free(&plain);
+    hm_lines_free(&smooth);
+    hm_lines_free(&equal);
+    hm_lines_free(&fence);
+}
+
 /* Lines end at nodata, and every crossing of an edge between known cells is in exactly one line. */
 static void test_random(void)
 {
@@ -240,22 +328,7 @@ static void test_random(void)
         left += simple.line[k].n;
         had += lines.line[k].n;
     }
-    /* put all lines into one to look for crossings: pairs of pieces, by brute force */
-    for (size_t a = 0; a < simple.n; a++)
-        for (size_t pa = 0; pa < hm_polyline_pieces(&simple.line[a]); pa++)
-            for (size_t b = a; b < simple.n; b++)
-                for (size_t pb = b == a ? pa + 1 : 0; pb < hm_polyline_pieces(&simple.line[b]);
-                     pb++) {
-                    const double *p = hm_polyline_from(&simple.line[a], pa);
-                    const double *q = hm_polyline_to(&simple.line[a], pa);
-                    const double *r = hm_polyline_from(&simple.line[b], pb);
-                    const double *s = hm_polyline_to(&simple.line[b], pb);
-                    double d1 = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-                    double d2 = (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0]);
-                    double d3 = (s[0] - r[0]) * (p[1] - r[1]) - (s[1] - r[1]) * (p[0] - r[0]);
-                    double d4 = (s[0] - r[0]) * (q[1] - r[1]) - (s[1] - r[1]) * (q[0] - r[0]);
-                    crossings += d1 * d2 < -1e-18 && d3 * d4 < -1e-18;
-                }
+    crossings = count_crossings(&simple);
     ok(crossings == 0, "simplified lines do not cross");
     ok(left < had * 9 / 10, "but are simpler: %zu vertices of %zu", left, had);
     hm_lines_free(&lines);
@@ -290,5 +363,6 @@ int main(void)
     test_saddle();
     test_random();
     test_smooth();
+    test_uncross();
     return done();
 }

@@ -17,9 +17,23 @@
 
 /* --- messages --- */
 
+/* Take the progress from the terminal's line. */
+static void clear_progress(struct hm_cli *cli)
+{
+    if (cli->spoken > 0)
+        fputs("\033[K", stderr);
+    cli->spoken = 0;
+}
+
+static void begin_message(struct hm_cli *cli)
+{
+    clear_progress(cli);
+    fprintf(stderr, "%s: ", cli->program->name);
+}
+
 static void print(struct hm_cli *cli, const char *format, va_list args)
 {
-    fprintf(stderr, "%s: ", cli->program->name);
+    begin_message(cli);
     vfprintf(stderr, format, args);
     fputc('\n', stderr);
 }
@@ -43,7 +57,7 @@ void hm_cli_check(struct hm_cli *cli, enum hm_err err, const struct hm_diag *d)
 {
     if (err == HM_OK || err == HM_END)
         return;
-    fprintf(stderr, "%s: ", cli->program->name);
+    begin_message(cli);
     if (d->source[0])
         fprintf(stderr, "%s:", d->source);
     if (d->line > 0)
@@ -98,15 +112,48 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void hm_cli_progress(struct hm_cli *cli, const char *text, double part)
+/* Progress is for terminals, when it takes over two seconds; not more often than every `pause`. */
+static bool may_speak(struct hm_cli *cli, double pause)
 {
     if (cli->quiet || !isatty(STDERR_FILENO))
-        return;
+        return false;
     double now = seconds();
-    if (now - cli->started < 2 || now - cli->spoken < 0.2)
-        return;
+    if (now - cli->started < 2 || now - cli->spoken < pause)
+        return false;
     cli->spoken = now;
-    fprintf(stderr, "\r%s: %s: %.0f %%\033[K\r", cli->program->name, text, 100 * part);
+    return true;
+}
+
+/* The cursor goes back, so that what comes next is written over it. */
+__attribute__((format(printf, 2, 3))) static void speak(struct hm_cli *cli, const char *format, ...)
+{
+    va_list args;
+    fprintf(stderr, "\r%s: ", cli->program->name);
+    va_start(args, format);
+    vfprintf(stderr, format, args);
+    va_end(args);
+    fputs("\033[K\r", stderr);
+}
+
+static const double pause_seconds = 0.2;
+
+void hm_cli_progress(struct hm_cli *cli, const char *text, double part)
+{
+    if (may_speak(cli, pause_seconds))
+        speak(cli, "%s: %.0f %%", text, 100 * part);
+}
+
+void hm_cli_progress_points(struct hm_cli *cli, size_t n)
+{
+    cli->points += n;
+    if (may_speak(cli, pause_seconds))
+        speak(cli, "reading: %.1f million points", 1e-6 * (double)cli->points);
+}
+
+void hm_cli_stage(struct hm_cli *cli, const char *text)
+{
+    if (may_speak(cli, 0))
+        speak(cli, "%s ...", text);
 }
 
 /* --- help --- */
@@ -440,6 +487,7 @@ int hm_cli_finish(struct hm_cli *cli)
         struct hm_diag d = {0};
         hm_cli_check(cli, hm_writer_close(&cli->writer, &d), &d);
     }
+    clear_progress(cli);
     int status = cli->strict && cli->mends ? 1 : 0;
     hm_cli_free_streams(cli);
     free(cli->operands);

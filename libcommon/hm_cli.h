@@ -88,6 +88,9 @@ size_t hm_cli_operands(const struct hm_cli *cli, char ***operands); /* at least 
 bool hm_cli_next(struct hm_cli *cli, struct hm_header *h);
 struct hm_reader *hm_cli_reader(struct hm_cli *cli); /* of the object just given */
 
+/* The points just given, all of them, with progress; h is taken over. */
+void hm_cli_read_points(struct hm_cli *cli, struct hm_points *p, struct hm_header *h);
+
 /* All objects at once. */
 void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in);
 
@@ -115,7 +118,11 @@ void hm_cli_mended(struct hm_cli *cli, int64_t n, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* What a terrain left out or merged among its measurements (hm_terrain_counts). */
 void hm_cli_mended_points(struct hm_cli *cli, int64_t without_z, int64_t duplicates);
-/* Progress "text: p %", on a terminal only, after two seconds. Call as often as you like. */
+/* Progress, on a terminal only, after two seconds; call as often as you like: "text: p %", */
 void hm_cli_progress(struct hm_cli *cli, const char *text, double part);
+/* that n more points were read, */
+void hm_cli_progress_points(struct hm_cli *cli, size_t n);
+/* and what begins now and cannot say how far it is. */
+void hm_cli_stage(struct hm_cli *cli, const char *text);
 
 #endif

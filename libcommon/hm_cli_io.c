@@ -160,6 +160,16 @@ static void *append(struct hm_cli *cli, void *items, size_t *n, size_t size)
     return memset(grown + (*n)++ * size, 0, size);
 }
 
+void hm_cli_read_points(struct hm_cli *cli, struct hm_points *p, struct hm_header *h)
+{
+    struct hm_diag d = {0};
+    enum hm_err err;
+    hm_points_begin(p, h);
+    for (size_t had = 0; !(err = hm_points_more(p, cli->reader, &d)); had = p->n)
+        hm_cli_progress_points(cli, p->n - had);
+    hm_cli_check(cli, err, &d);
+}
+
 void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in)
 {
     *in = (struct hm_inputs){0};
@@ -169,8 +179,7 @@ void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in)
         enum hm_err err = HM_OK;
         switch (h.kind) {
         case HM_POINTS:
-            err = hm_points_read(append(cli, &in->points, &in->npoints, sizeof *in->points),
-                                 cli->reader, &h, &d);
+            hm_cli_read_points(cli, append(cli, &in->points, &in->npoints, sizeof *in->points), &h);
             break;
         case HM_GRID:
             err = hm_grid_read(append(cli, &in->grid, &in->ngrids, sizeof *in->grid), cli->reader,

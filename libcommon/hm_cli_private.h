@@ -22,7 +22,8 @@ struct hm_cli {
     struct hm_writer *writer;
 
     int64_t mends;
-    double started, spoken; /* seconds, for the progress */
+    double started, spoken; /* seconds; spoken 0: no progress stands on the terminal */
+    size_t points;          /* read so far, for the progress */
 };
 
 void hm_cli_free_streams(struct hm_cli *cli);

@@ -1,5 +1,7 @@
 #include "hm_data.h"
 
+#include "hm_batch.h"
+
 /* A header that is written with the number of records that really follow. */
 static enum hm_err begin_counted(struct hm_writer *w, const struct hm_header *h, size_t n,
                                  struct hm_diag *d)
@@ -12,21 +14,30 @@ static enum hm_err begin_counted(struct hm_writer *w, const struct hm_header *h,
 
 /* --- points --- */
 
+void hm_points_begin(struct hm_points *p, struct hm_header *h)
+{
+    *p = (struct hm_points){.header = *h, .stride = h->nfields};
+    *h = (struct hm_header){0};
+}
+
+enum hm_err hm_points_more(struct hm_points *p, struct hm_reader *r, struct hm_diag *d)
+{
+    size_t n;
+    if (!hm_grow(&p->v, &p->cap, (p->n + HM_BATCH) * p->stride, sizeof *p->v))
+        return hm_fail_memory(d);
+    enum hm_err err = hm_reader_points(r, p->v + p->n * p->stride, HM_BATCH, &n, d);
+    p->n += n;
+    return err;
+}
+
 enum hm_err hm_points_read(struct hm_points *p, struct hm_reader *r, struct hm_header *h,
                            struct hm_diag *d)
 {
-    enum { AT_ONCE = 4096 };
-    *p = (struct hm_points){.header = *h, .stride = h->nfields};
-    *h = (struct hm_header){0};
-    for (;;) {
-        size_t n;
-        if (!hm_grow(&p->v, &p->cap, (p->n + AT_ONCE) * p->stride, sizeof *p->v))
-            return hm_fail_memory(d);
-        enum hm_err err = hm_reader_points(r, p->v + p->n * p->stride, AT_ONCE, &n, d);
-        if (err)
-            return err == HM_END ? HM_OK : err;
-        p->n += n;
-    }
+    enum hm_err err;
+    hm_points_begin(p, h);
+    while (!(err = hm_points_more(p, r, d)))
+        ;
+    return err == HM_END ? HM_OK : err;
 }
 
 enum hm_err hm_points_write(const struct hm_points *p, struct hm_writer *w, struct hm_diag *d)

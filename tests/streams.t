@@ -105,6 +105,17 @@ same '--keep: the inputs, then the product' want got
 ok 'what the tool does not use is named' grep -qx 'slope: the inputs (--keep): lines not used here' err
 must_fail '--keep without room' 2 'nowhere/hm-spool-' env TMPDIR=nowhere slope --keep height.hm
 
+# --- progress: on a terminal, after two seconds, and taken away again ---
+if command -v script >/dev/null; then
+    mkfifo slow
+    { echo 0 0 0; sleep 2.3; awk 'BEGIN { for (i = 0; i < 20000; i++) print i % 100, int(i / 100), 1 }'; } >slow &
+    script -qec 'bsgrid -o progress.hm slow' terminal >/dev/null </dev/null
+    ok 'a slow run says how far it is' grep -q 'bsgrid: reading: 0.0 million points' terminal
+    ok 'and wipes that away' grep -q "$(printf '\033')\[Kbsgrid: 20001 points" terminal
+else
+    skip 'no script here'
+fi
+
 # --- foreign, on real data ---
 if need_data willamette_autzen/autzen_trim.las; then
     las=$DATA/willamette_autzen/autzen_trim.las

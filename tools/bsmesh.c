@@ -192,8 +192,10 @@ static void mesh_all(struct hm_cli *cli, const struct job *job)
     if (!mesh)
         hm_cli_die(cli, "out of memory");
     for (size_t k = 0; k < job->nrough; k++)
-        if (is_wanted(&job->rough[k]))
+        if (is_wanted(&job->rough[k])) {
+            hm_cli_progress(cli, "surfaces", (double)k / (double)job->nrough);
             mesh_surface(cli, job, &job->rough[k], &mesh[k]);
+        }
     for (size_t k = 0; k < job->nrough; k++) {
         if (is_wanted(&job->rough[k]))
             hm_cli_check(cli, hm_mesh_write(&mesh[k], hm_cli_writer(cli), &d), &d);
@@ -211,6 +213,7 @@ int main(int argc, char **argv)
                               .threads = hm_cli_threads(cli)}};
     hm_cli_read_all(cli, &job.in);
     read_lines(cli, &job);
+    hm_cli_stage(cli, "the terrain");
     build_terrain(cli, &job);
     mesh_all(cli, &job);
     hm_terrain_free(job.terrain);

@@ -78,7 +78,7 @@ static void read_layers(struct hm_cli *cli, struct drawing *drawing)
         enum hm_err err = HM_OK;
         switch (h.kind) {
         case HM_POINTS:
-            err = hm_points_read(&layer->of.points, r, &h, &d);
+            hm_cli_read_points(cli, &layer->of.points, &h);
             break;
         case HM_GRID:
             err = hm_grid_read(&layer->of.grid, r, &h, &d);

@@ -213,6 +213,7 @@ static void stream_points(struct run *run, struct hm_header *h)
         c->rows = b.rows;
         c->n = b.n;
         compare(run, c);
+        hm_cli_progress_points(run->cli, b.n);
     }
     hm_cli_check(run->cli, err, &d);
     hm_batch_free(&b);
@@ -222,12 +223,11 @@ static void stream_points(struct run *run, struct hm_header *h)
 
 static void hold_points(struct run *run, struct hm_header *h)
 {
-    struct hm_diag d = {0};
     if (!hm_grow(&run->held, &run->held_cap, run->nheld + 1, sizeof *run->held))
         hm_cli_die(run->cli, "out of memory");
     struct hm_points *p = &run->held[run->nheld++];
     *p = (struct hm_points){0};
-    hm_cli_check(run->cli, hm_points_read(p, hm_cli_reader(run->cli), h, &d), &d);
+    hm_cli_read_points(run->cli, p, h);
 }
 
 static void take_mesh(struct run *run, struct hm_header *h)
@@ -276,6 +276,7 @@ static bool report(struct run *run)
     struct hm_diag d = {0};
     struct hm_quality *q = &run->quality;
     q->mesh = &run->mesh;
+    hm_cli_stage(run->cli, "the elements");
     enum hm_err err = hm_meshstat_run(&run->mesh, &q->shape, &d);
     if (!err)
         err = hm_meshcheck_run(&run->mesh, &q->check, &d);

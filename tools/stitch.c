@@ -173,11 +173,15 @@ static void add_mesh(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh
 static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_join *j,
                      struct hm_strings *strings)
 {
+    hm_cli_stage(cli, "the terrain");
     struct hm_terrain *terrain = build_terrain(cli, in);
+    size_t done = 0;
     for (int regular = 1; regular >= 0; regular--)
         for (size_t i = 0; i < in->nmeshes; i++) {
-            if (is_regular(&in->mesh[i]) == regular)
-                add_mesh(cli, j, &in->mesh[i], terrain, strings);
+            if (is_regular(&in->mesh[i]) != regular)
+                continue;
+            hm_cli_progress(cli, "meshes", (double)done++ / (double)in->nmeshes);
+            add_mesh(cli, j, &in->mesh[i], terrain, strings);
         }
     hm_terrain_free(terrain);
 }
@@ -303,6 +307,7 @@ int main(int argc, char **argv)
     check_inputs(cli, &in);
     hm_cli_check(cli, hm_owners_join(in.mesh, in.nmeshes, &owners, &d), &d);
     join_all(cli, &in, &join, &strings);
+    hm_cli_stage(cli, "the checks");
     check_result(cli, &join.mesh, &in);
     hm_cli_check(cli, hm_join_flag_boundary(&join.mesh, &d), &d);
     give_materials(cli, &in, &join.mesh);

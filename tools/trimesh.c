@@ -253,6 +253,7 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
         o.arg = &steps;
         hm_cli_check(cli, write_step(&steps, dom, "start", &d), &d);
     }
+    hm_cli_stage(cli, "the edges");
     hm_cli_check(cli, hm_paper_reach(dom, &o, &left, &d), &d);
     say_left(cli, &left);
 }
@@ -281,10 +282,13 @@ int main(int argc, char **argv)
     check_command(cli);
     hm_cli_read_all(cli, &in);
     make_header(cli, &in, &mesh.header);
+    hm_cli_stage(cli, "the terrain");
     struct hm_terrain *terrain = build_terrain(cli, &in);
+    hm_cli_stage(cli, "points, lines and meshes");
     assemble(cli, &in, terrain, &dom);
     if (cmd.method == PAPER)
         bring_to_lengths(cli, &mesh.header, &dom);
+    hm_cli_stage(cli, "heights");
     if (cmd.elevation == Z_TERRAIN)
         lift(cli, terrain, &dom);
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);

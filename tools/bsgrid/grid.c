@@ -160,6 +160,7 @@ static void write_rows(struct hm_cli *cli, const struct survey *s, const struct 
             empty += isnan(*node) != 0;
         }
         hm_cli_check(cli, hm_writer_row(hm_cli_writer(cli), row, &d), &d);
+        hm_cli_progress(cli, "writing", (double)(p.j - s->fine.j0 + 1) / (double)s->fine.ny);
     }
     hm_cli_check(cli, hm_writer_end(hm_cli_writer(cli), &d), &d);
     hm_cli_say(cli, "%lld points, %zu x %zu nodes, %zu of them empty (nan)", (long long)s->used,

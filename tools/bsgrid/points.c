@@ -86,12 +86,14 @@ void read_points(struct hm_cli *cli, struct survey *s, const struct hm_header *h
     struct hm_diag d = {0};
     struct hm_batch b = {0};
     enum hm_err err = HM_OK;
-    while (!err && !(err = hm_batch_read(&b, r, h, &d)))
+    while (!err && !(err = hm_batch_read(&b, r, h, &d))) {
         for (size_t k = 0; k < b.n && !err; k++) {
             const double *p = b.rows + k * h->nfields;
             if (is_wanted(s, &filter, p))
                 err = add_point(s, p, &d);
         }
+        hm_cli_progress_points(cli, b.n);
+    }
     hm_cli_check(cli, err, &d);
     hm_batch_free(&b);
 }

@@ -100,7 +100,9 @@ static struct hm_bsurf make_surface(struct hm_cli *cli, struct survey *s)
     struct hm_bsurf b;
     struct hm_diag d = {0};
     size_t nx = s->nodes.nx, ny = s->nodes.ny;
+    hm_cli_stage(cli, "the start grid");
     double *z = make_start(cli, s), rest = 0;
+    hm_cli_stage(cli, "dragging");
     hm_cli_check(cli, hm_bsurf_init(&b, cmd.degree, nx, ny, 1, &d), &d);
     for (size_t j = 0; j < ny; j++)
         memcpy(hm_bsurf_at(&b, 0, (int64_t)j), z + j * nx, nx * sizeof *z);

@@ -1,7 +1,5 @@
 #include "hm_data.h"
 
-#include "hm_batch.h"
-
 /* A header that is written with the number of records that really follow. */
 static enum hm_err begin_counted(struct hm_writer *w, const struct hm_header *h, size_t n,
                                  struct hm_diag *d)
@@ -22,10 +20,11 @@ void hm_points_begin(struct hm_points *p, struct hm_header *h)
 
 enum hm_err hm_points_more(struct hm_points *p, struct hm_reader *r, struct hm_diag *d)
 {
+    enum { AT_ONCE = 16384 };
     size_t n;
-    if (!hm_grow(&p->v, &p->cap, (p->n + HM_BATCH) * p->stride, sizeof *p->v))
+    if (!hm_grow(&p->v, &p->cap, (p->n + AT_ONCE) * p->stride, sizeof *p->v))
         return hm_fail_memory(d);
-    enum hm_err err = hm_reader_points(r, p->v + p->n * p->stride, HM_BATCH, &n, d);
+    enum hm_err err = hm_reader_points(r, p->v + p->n * p->stride, AT_ONCE, &n, d);
     p->n += n;
     return err;
 }

@@ -16,7 +16,7 @@
 
 enum hm_err hm_points_read(struct hm_points *p, struct hm_reader *r, struct hm_header *h,
                            struct hm_diag *d);
-/* The same in steps, for those who tell how far it is: take h over, then add a batch until HM_END.
+/* The same in steps, for those who tell how far it is: take h over, then add some until HM_END.
  */
 void hm_points_begin(struct hm_points *p, struct hm_header *h);
 enum hm_err hm_points_more(struct hm_points *p, struct hm_reader *r, struct hm_diag *d);

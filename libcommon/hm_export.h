@@ -17,6 +17,43 @@
  * number "region 0", says so to the reader. HM_EGEOM names a node without height. */
 enum hm_err hm_export_2dm(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
 
+/* --- meshes for other programs ---
+ *
+ * All write the node strings of the header and the regions where the format has a place for them;
+ * hmconv says what it has not. Ids from 1 unless the format counts from 0. Formats of triangles
+ * (fort14, slf, tsh) want meshes without quadrilaterals. Heights are written as they are: depths,
+ * positive down, are the caller's affair. */
+
+/* UGRID 1.0 in classic NetCDF, for Delft3D FM, QGIS and others; carries the crs. */
+enum hm_err hm_export_ugrid(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* RMA2/GFGEN .geo with mid-side nodes in the middle of the edges. HM_EARG when a line would pass 80
+ * columns. Region 0 becomes the number behind the largest. */
+enum hm_err hm_export_rma2(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* RMA-10S / Kalypso .2d: seven decimals. Region 0 becomes the number behind the largest. */
+enum hm_err hm_export_kalypso(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* SCHISM hgrid.gr3, which as long as it has triangles only is ADCIRC's fort.14. Strings are open
+ * boundaries, but those named wall, land, bank or island; the rest is land, in runs. */
+enum hm_err hm_export_gr3(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* TELEMAC Selafin geometry, double precision; the conditions of its boundary, a line a node:
+ * strings named inflow have the discharge given, other open ones the height of the water. */
+enum hm_err hm_export_slf(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+enum hm_err hm_export_cli(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* VTK, legacy and XML, as text. */
+enum hm_err hm_export_vtk(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+enum hm_err hm_export_vtu(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* Gmsh 2.2, text. */
+enum hm_err hm_export_msh(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* PLY, text. */
+enum hm_err hm_export_ply(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* ANUGA .tsh. */
+enum hm_err hm_export_tsh(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* Medit .mesh, two dimensions: no heights. */
+enum hm_err hm_export_medit(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* SRH-2D .srhgeom. */
+enum hm_err hm_export_srh(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+
+/* --- grids, points, lines --- */
+
 /* ESRI ASCII grid of one band: north first, nodata -9999 (a longer row of nines when a height is
  * just that). HM_EARG when the cells are not square, or the grid has a single row or column. */
 enum hm_err hm_export_asc(const struct hm_grid *g, size_t band, int decimals, struct hm_writer *w,

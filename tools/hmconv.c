@@ -7,32 +7,77 @@
 #include "hm_copy.h"
 #include "hm_describe.h"
 #include "hm_export.h"
+#include "hm_num.h"
+#include "hm_split.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum format { TEXT, BINARY, SINGLE, MESH_2DM, GRID_ASC, TABLE_XYZ, LINES_GMT };
+typedef enum hm_err write_mesh(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+
+/* What a format of meshes has no place for, or has otherwise. */
+enum {
+    NO_QUADS = 1,
+    NO_STRINGS = 2,
+    NO_REGIONS = 4,
+    NO_HEIGHTS = 8,
+    DEPTHS = 16,      /* positive down */
+    FROM_ONE = 32,    /* no region 0 */
+    SEVEN_PLACES = 64 /* behind the point */
+};
+
+enum format { TEXT, BINARY, SINGLE, MESH, GRID_ASC, TABLE_XYZ, LINES_GMT };
 
 static const struct {
     const char *name;
+    enum format format;
     int kinds; /* that it can hold */
-    bool one;  /* a file of it holds one object */
-} formats[] = {
-    [TEXT] = {"text", HM_ANY, false},      [BINARY] = {"binary", HM_ANY, false},
-    [SINGLE] = {"single", HM_GRID, false}, [MESH_2DM] = {"2dm", HM_MESH, true},
-    [GRID_ASC] = {"asc", HM_GRID, true},   [TABLE_XYZ] = {"xyz", HM_POINTS | HM_GRID, false},
-    [LINES_GMT] = {"gmt", HM_LINES, false}};
+    write_mesh *write;
+    int lacks;
+} formats[] = {{"text", TEXT, HM_ANY, NULL, 0},
+               {"binary", BINARY, HM_ANY, NULL, 0},
+               {"single", SINGLE, HM_GRID, NULL, 0},
+               {"2dm", MESH, HM_MESH, hm_export_2dm, 0},
+               {"ugrid", MESH, HM_MESH, hm_export_ugrid, NO_STRINGS},
+               {"geo", MESH, HM_MESH, hm_export_rma2, FROM_ONE},
+               {"2d", MESH, HM_MESH, hm_export_kalypso, FROM_ONE | NO_STRINGS | SEVEN_PLACES},
+               {"gr3", MESH, HM_MESH, hm_export_gr3, NO_REGIONS | DEPTHS},
+               {"fort14", MESH, HM_MESH, hm_export_gr3, NO_REGIONS | NO_QUADS | DEPTHS},
+               {"slf", MESH, HM_MESH, hm_export_slf, NO_REGIONS | NO_QUADS | NO_STRINGS},
+               {"cli", MESH, HM_MESH, hm_export_cli, NO_QUADS},
+               {"vtk", MESH, HM_MESH, hm_export_vtk, NO_STRINGS},
+               {"vtu", MESH, HM_MESH, hm_export_vtu, NO_STRINGS},
+               {"msh", MESH, HM_MESH, hm_export_msh, 0},
+               {"ply", MESH, HM_MESH, hm_export_ply, NO_STRINGS},
+               {"tsh", MESH, HM_MESH, hm_export_tsh, NO_QUADS},
+               {"medit", MESH, HM_MESH, hm_export_medit, NO_HEIGHTS},
+               {"srhgeom", MESH, HM_MESH, hm_export_srh, NO_REGIONS},
+               {"asc", GRID_ASC, HM_GRID, NULL, 0},
+               {"xyz", TABLE_XYZ, HM_POINTS | HM_GRID, NULL, 0},
+               {"gmt", LINES_GMT, HM_LINES, NULL, 0}};
+#define CHOICES                                                                                    \
+    "text|binary|single|2dm|ugrid|geo|2d|gr3|fort14|slf|cli|vtk|vtu|msh|ply|tsh|medit|srhgeom|"    \
+    "asc|xyz|gmt"
 
 static struct {
-    int format;
-    bool format_given, info;
-    const char *band;
+    int to;
+    bool to_given, info, split;
+    const char *band, *origin;
+    double datum;
 } cmd;
 
 static const struct hm_option options[] = {
-    {'t', "to", NULL, HM_OPT_CHOICE, &cmd.format, .help = "what to write (default text)",
-     .choices = "text|binary|single|2dm|asc|xyz|gmt", .silent = true, .given = &cmd.format_given},
+    {'t', "to", "FORMAT", HM_OPT_CHOICE, &cmd.to, .help = "what to write (default text)",
+     .choices = CHOICES, .silent = true, .given = &cmd.to_given},
     {'i', "info", NULL, HM_OPT_FLAG, &cmd.info, .help = "say what the files hold instead",
      .silent = true},
+    {'s', "split", NULL, HM_OPT_FLAG, &cmd.split, .help = "quadrilaterals of a mesh to triangles"},
+    {0, "origin", "X,Y", HM_OPT_TEXT, &cmd.origin,
+     .help = "mesh: subtract this from all coordinates"},
+    {0, "datum", "H", HM_OPT_NUMBER, &cmd.datum,
+     .help = "gr3, fort14: the height that depths are counted from (default 0)", .silent = true},
     {0, "band", "NAME", HM_OPT_TEXT, &cmd.band,
      .help = "asc, xyz: this band of a grid (default the first)", .silent = true},
     {0}};
@@ -90,18 +135,123 @@ static enum hm_err hold(struct hm_cli *cli, const struct hm_header *h, struct hm
     return hm_grid_read(&held.grid, hm_cli_reader(cli), &own, d);
 }
 
+/* --- meshes: what is changed on the way, and what is lost --- */
+
+static void shift(struct hm_cli *cli, struct hm_mesh *m)
+{
+    double x, y;
+    const char *s = cmd.origin, *end = s + strlen(s), *comma = hm_num_parse(s, end, &x);
+    if (!comma || *comma != ',' || hm_num_parse(comma + 1, end, &y) != end || !isfinite(x) ||
+        !isfinite(y))
+        hm_cli_die(cli, "--origin: '%s' is not two numbers with a comma between", cmd.origin);
+    for (size_t k = 0; k < m->nnodes; k++) {
+        m->node[k].x -= x;
+        m->node[k].y -= y;
+    }
+    const char *crs = hm_header_get(&m->header, "crs");
+    char text[512];
+    struct hm_diag d = {0};
+    snprintf(text, sizeof text, "%s, from %s", crs ? crs : "", cmd.origin);
+    if (crs) /* it is not that any more */
+        hm_cli_check(cli, hm_header_set(&m->header, "crs", text, &d), &d);
+}
+
+static void split(struct hm_cli *cli, struct hm_mesh *m)
+{
+    struct hm_diag d = {0};
+    int64_t count;
+    hm_cli_check(cli, hm_split_quads(m, &count, &d), &d);
+    if (count > 0)
+        hm_cli_say(cli, "%lld quadrilaterals split into triangles", (long long)count);
+}
+
+static int64_t count_strings(const struct hm_mesh *m)
+{
+    int64_t n = 0;
+    for (size_t k = 0; k < m->header.nkeys; k++)
+        n += !strcmp(m->header.keys[k].name, "string");
+    return n;
+}
+
+/* Say what the format cannot hold. */
+static void say_losses(struct hm_cli *cli, const struct hm_mesh *m, const char *name, int lacks)
+{
+    int64_t strings = count_strings(m), none = 0, some = 0;
+    for (size_t k = 0; k < m->nelems; k++) {
+        none += m->elem[k].region == 0;
+        some += m->elem[k].region != 0;
+    }
+    if ((lacks & NO_STRINGS) && strings > 0)
+        hm_cli_say(cli, "%s has no node strings: %lld dropped", name, (long long)strings);
+    if ((lacks & NO_REGIONS) && some > 0)
+        hm_cli_say(cli, "%s has no materials: those of %lld elements dropped", name,
+                   (long long)some);
+    if ((lacks & FROM_ONE) && none > 0)
+        hm_cli_say(cli, "%s has no material 0: %lld elements get the number behind the largest",
+                   name, (long long)none);
+    if (lacks & NO_HEIGHTS)
+        hm_cli_say(cli, "%s has no heights: dropped", name);
+    if (lacks & SEVEN_PLACES)
+        hm_cli_say(cli, "%s has seven decimals", name);
+}
+
+static void write_mesh_as(struct hm_cli *cli, struct hm_mesh *m)
+{
+    struct hm_diag d = {0};
+    int lacks = formats[cmd.to].lacks;
+    for (size_t k = 0; k < m->nnodes; k++)
+        if (!isfinite(m->node[k].z) && !(lacks & NO_HEIGHTS)) {
+            hm_fail_at(&d, HM_EGEOM, m->node[k].x, m->node[k].y, "a node has no height");
+            hm_cli_check(cli, HM_EGEOM, &d);
+        }
+    say_losses(cli, m, formats[cmd.to].name, lacks);
+    for (size_t k = 0; k < m->nnodes && (lacks & DEPTHS); k++)
+        m->node[k].z = cmd.datum - m->node[k].z;
+    hm_cli_check(cli, formats[cmd.to].write(m, hm_cli_writer(cli), &d), &d);
+}
+
+/* A mesh of a stream is changed by what was asked alone. */
+static void change_mesh(struct hm_cli *cli, struct hm_mesh *m)
+{
+    if (cmd.split || (formats[cmd.to].lacks & NO_QUADS))
+        split(cli, m);
+    if (cmd.origin)
+        shift(cli, m);
+}
+
+static enum hm_err copy_mesh(struct hm_cli *cli, const struct hm_header *h, struct hm_diag *d)
+{
+    struct hm_mesh m = {0};
+    struct hm_header own = {0};
+    enum hm_err err = hm_header_copy(&own, h, d);
+    if (!err)
+        err = hm_mesh_read(&m, hm_cli_reader(cli), &own, d);
+    if (!err)
+        err = hm_header_add_history(&m.header, hm_cli_history(cli), d);
+    if (!err) {
+        change_mesh(cli, &m);
+        err = hm_mesh_write(&m, hm_cli_writer(cli), d);
+    }
+    hm_mesh_free(&m);
+    return err;
+}
+
 static void write_held(struct hm_cli *cli)
 {
     struct hm_diag d = {0};
-    struct hm_writer *w = hm_cli_writer(cli);
-    int decimals = hm_cli_format(cli).decimals;
-    if (cmd.format == MESH_2DM)
-        hm_cli_check(cli, hm_export_2dm(&held.mesh, w, &d), &d);
-    else
-        hm_cli_check(cli, hm_export_asc(&held.grid, held.band, decimals, w, &d), &d);
+    if (formats[cmd.to].format == MESH) {
+        change_mesh(cli, &held.mesh);
+        write_mesh_as(cli, &held.mesh);
+    } else {
+        int decimals = hm_cli_format(cli).decimals;
+        hm_cli_check(cli, hm_export_asc(&held.grid, held.band, decimals, hm_cli_writer(cli), &d),
+                     &d);
+    }
     hm_mesh_free(&held.mesh);
     hm_grid_free(&held.grid);
 }
+
+/* --- points and lines --- */
 
 static enum hm_err export_points(struct hm_cli *cli, struct hm_reader *r, const struct hm_header *h,
                                  int64_t *left_out, struct hm_diag *d)
@@ -151,8 +301,8 @@ static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *lef
     struct hm_reader *r = hm_cli_reader(cli);
     if (cmd.info)
         return hm_describe(r, h, hm_cli_writer(cli), d);
-    switch ((enum format)cmd.format) {
-    case MESH_2DM:
+    switch (formats[cmd.to].format) {
+    case MESH:
     case GRID_ASC:
         return hold(cli, h, d);
     case TABLE_XYZ:
@@ -161,34 +311,42 @@ static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *lef
     case LINES_GMT:
         return export_lines(cli, r, d);
     default:
-        return copy_object(cli, h, d);
+        return h->kind == HM_MESH && (cmd.split || cmd.origin) ? copy_mesh(cli, h, d)
+                                                               : copy_object(cli, h, d);
     }
 }
 
 static void choose_encoding(struct hm_cli *cli)
 {
     struct hm_format format = hm_cli_format(cli);
-    const char *name = formats[cmd.format].name;
-    bool binary = cmd.format == BINARY || cmd.format == SINGLE;
-    if (format.binary && cmd.format_given && !binary)
+    const char *name = formats[cmd.to].name;
+    enum format to = formats[cmd.to].format;
+    bool binary = to == BINARY || to == SINGLE;
+    if (format.binary && cmd.to_given && !binary)
         hm_cli_die(cli, "--binary and --to %s exclude each other", name);
     if (format.decimals && binary)
         hm_cli_die(cli, "--precision is for text, --to %s is not", name);
-    if (format.decimals && cmd.format == MESH_2DM)
+    if (format.decimals && to == MESH)
         hm_cli_die(cli, "--precision would move the nodes of a mesh");
     format.binary |= binary;
-    format.single = cmd.format == SINGLE;
+    format.single = to == SINGLE;
     if (cmd.info)
         format = (struct hm_format){0};
     hm_cli_set_format(cli, format);
 }
 
+/* A file of the format holds one object. */
+static bool holds_one(void)
+{
+    return !cmd.info && (formats[cmd.to].format == MESH || formats[cmd.to].format == GRID_ASC);
+}
+
 /* Read all inputs, and write what need not wait; how many objects. */
 static int64_t convert_all(struct hm_cli *cli)
 {
-    const char *name = formats[cmd.format].name;
-    int kinds = cmd.info ? HM_ANY : formats[cmd.format].kinds;
-    bool one = !cmd.info && formats[cmd.format].one;
+    const char *name = formats[cmd.to].name;
+    int kinds = cmd.info ? HM_ANY : formats[cmd.to].kinds;
+    bool one = holds_one();
     int64_t count = 0, left_out = 0;
     struct hm_header h;
     while (hm_cli_next(cli, &h)) {
@@ -212,8 +370,8 @@ int main(int argc, char **argv)
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     choose_encoding(cli);
     if (!convert_all(cli))
-        hm_cli_die(cli, "nothing among the inputs that %s can hold", formats[cmd.format].name);
-    if (!cmd.info && formats[cmd.format].one)
+        hm_cli_die(cli, "nothing among the inputs that %s can hold", formats[cmd.to].name);
+    if (holds_one())
         write_held(cli);
     return hm_cli_finish(cli);
 }

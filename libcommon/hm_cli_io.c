@@ -101,6 +101,19 @@ static void close_operand(struct hm_cli *cli)
     cli->reader = NULL;
 }
 
+/* The scheme knows no unit: 0.10 m of a threshold are 0.10 ft among feet. Said once. */
+static void note_units(struct hm_cli *cli, const struct hm_header *h)
+{
+    char unit[16];
+    hm_header_unit(h, 0, unit, sizeof unit);
+    if (!cli->units_said && strcmp(unit, "m"))
+        hm_cli_say(cli,
+                   "coordinates are in %s, and so are all lengths and limits (georef -t same "
+                   "converts)",
+                   unit);
+    cli->units_said = cli->units_said || strcmp(unit, "m");
+}
+
 static void note_header(struct hm_cli *cli, const struct hm_header *h)
 {
     struct hm_diag d = {0};
@@ -115,6 +128,8 @@ static void note_header(struct hm_cli *cli, const struct hm_header *h)
     if (err && !d.source[0])
         snprintf(d.source, sizeof d.source, "%s", name);
     hm_cli_check(cli, err, &d);
+    if (!cli->program->degrees_ok)
+        note_units(cli, h);
 }
 
 bool hm_cli_next(struct hm_cli *cli, struct hm_header *h)

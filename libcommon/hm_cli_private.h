@@ -21,6 +21,8 @@ struct hm_cli {
     struct hm_header seen; /* keys and history of all inputs so far */
     struct hm_writer *writer;
 
+    bool units_said; /* that they are not metres */
+
     int64_t mends;
     double started, spoken; /* seconds; spoken 0: no progress stands on the terminal */
     size_t points;          /* read so far, for the progress */

@@ -287,6 +287,17 @@ static enum hm_err merge_history(struct hm_header *h, const struct hm_header *fr
     return err;
 }
 
+/* Both say units of x, y and z, and these differ: their coordinates cannot go together. */
+static bool units_differ(const struct hm_header *h, const struct hm_header *from)
+{
+    char a[UNIT_SIZE], b[UNIT_SIZE];
+    const char *ours = hm_header_get(h, "units"), *theirs = hm_header_get(from, "units");
+    for (size_t i = 0; i < 3; i++)
+        if (nth_word(ours, i, a, sizeof a) && nth_word(theirs, i, b, sizeof b) && strcmp(a, b))
+            return true;
+    return false;
+}
+
 /* Keys that hold for one object alone. */
 static bool is_own(const char *key)
 {
@@ -298,6 +309,9 @@ enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, s
     const char *crs = hm_header_get(h, "crs"), *other = hm_header_get(from, "crs");
     if (crs && other && strcmp(crs, other))
         return hm_fail(d, HM_EFORMAT, "inputs differ in their crs: \"%s\" and \"%s\"", crs, other);
+    if (units_differ(h, from))
+        return hm_fail(d, HM_EFORMAT, "inputs differ in their units: %s and %s",
+                       hm_header_get(h, "units"), hm_header_get(from, "units"));
     enum hm_err err = merge_history(h, from, d);
     size_t had = h->nkeys; /* a key that `from` has several times comes over whole */
     for (size_t i = 0; i < from->nkeys && !err; i++) {
@@ -342,7 +356,7 @@ enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d)
 {
     static const char advice[] = "metres are needed (georef projects)";
     const char *crs = hm_header_get(h, "crs");
-    char text[256] = "", unit[UNIT_SIZE];
+    char text[256] = "", unit[UNIT_SIZE] = "";
     size_t n = 0;
     for (const char *s = crs ? crs : ""; *s && n < sizeof text - 1; s++)
         if (!isspace((unsigned char)*s))
@@ -351,7 +365,15 @@ enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d)
     if (says_degrees(text))
         return hm_fail(d, HM_EFORMAT, "the crs \"%s\" is in longitude and latitude; %s", crs,
                        advice);
-    if (nth_word(hm_header_get(h, "units"), 0, unit, sizeof unit) && !strncmp(unit, "deg", 3))
+    const char *units = hm_header_get(h, "units");
+    if (nth_word(units, 0, unit, sizeof unit) && !strncmp(unit, "deg", 3))
         return hm_fail(d, HM_EFORMAT, "x is in degrees (#units); %s", advice);
+    for (size_t i = 1; i < 3; i++) {
+        char other[UNIT_SIZE];
+        if (nth_word(units, i, other, sizeof other) && strcmp(unit, other))
+            return hm_fail(d, HM_EFORMAT,
+                           "x is in %s, %s in %s: one unit is needed (georef converts)", unit,
+                           i == 1 ? "y" : "z", other);
+    }
     return HM_OK;
 }

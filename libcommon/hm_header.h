@@ -79,10 +79,12 @@ enum hm_err hm_header_add_history(struct hm_header *h, const char *line, struct 
 /* Bring what `from` says into h, as a program with several inputs does: history lines that h lacks
  * or has less often (what both have they have in common; equal stages of one history all stay),
  * keys that h lacks (but never what holds for one object alone: name, role, string; units go by the
- * names of the fields). HM_EFORMAT when both have a crs and they differ. */
+ * names of the fields). HM_EFORMAT when both have a crs, or
+ * units of x, y, z, and they differ. */
 enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, struct hm_diag *d);
 
-/* HM_EFORMAT when the crs says longitude and latitude, where metres are needed; names georef. */
+/* HM_EFORMAT when the crs says longitude and latitude, where metres are needed, or when x, y and z
+ * have different units; names georef. */
 enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d);
 
 #endif

@@ -149,4 +149,7 @@ true_that "residuals of a plane, metres" "$worst < 1e-9"
 stages=$(awk '/^#prog/ { print $2 }' hybrid.hm | tr '\n' ' ')
 true_that "the mesh tells how it was made: $stages" \
     "\"$stages\" ~ /^bsgrid slope breaklines bsmesh stitch trimesh stitch /"
+before=$(grep -c '^#prog' hybrid.hm)
+after=$(stitch hybrid.hm 2>/dev/null | stitch 2>/dev/null | stitch 2>/dev/null | grep -c '^#prog')
+true_that "a line a stage, of equal stages too: $before, then $after" "$after == $before + 3"
 done_testing

@@ -190,6 +190,44 @@ enum hm_err hm_chain_add(struct hm_chain *c, struct hm_joint *from, struct hm_jo
     return joined->begin || joined->end ? HM_OK : finish(c, before, false, d);
 }
 
+/* Turn an open line round, and say so at its ends. */
+static void turn(struct hm_chain *c, int64_t line)
+{
+    struct open_line *l = &c->line[line];
+    int64_t before = NOTHING;
+    for (int64_t v = l->first, next; v != NOTHING; v = next) {
+        next = c->vertex[v].next;
+        c->vertex[v].next = before;
+        before = v;
+    }
+    int64_t first = l->first;
+    l->first = l->last;
+    l->last = first;
+    struct hm_joint *begin = l->begin, *end = l->end;
+    if (begin) {
+        begin->beginning = HM_JOINT_FREE;
+        begin->ending = line;
+    }
+    if (end) {
+        end->ending = HM_JOINT_FREE;
+        end->beginning = line;
+    }
+    l->begin = end;
+    l->end = begin;
+}
+
+enum hm_err hm_chain_join(struct hm_chain *c, struct hm_joint *a, struct hm_joint *b,
+                          const double *at_a, const double *at_b, struct hm_diag *d)
+{
+    bool against = a->beginning != HM_JOINT_FREE || b->ending != HM_JOINT_FREE;
+    struct hm_joint *from = against ? b : a, *to = against ? a : b;
+    if (from->beginning != HM_JOINT_FREE)
+        turn(c, from->beginning);
+    if (to->ending != HM_JOINT_FREE)
+        turn(c, to->ending);
+    return hm_chain_add(c, from, to, against ? at_b : at_a, NULL, against ? at_a : at_b, d);
+}
+
 enum hm_err hm_chain_seal(struct hm_chain *c, struct hm_joint *joint, struct hm_diag *d)
 {
     enum hm_err err = HM_OK;

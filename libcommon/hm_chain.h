@@ -36,6 +36,11 @@ enum hm_err hm_chain_add(struct hm_chain *c, struct hm_joint *from, struct hm_jo
                          const double *start, const double *middle, const double *end,
                          struct hm_diag *d);
 
+/* Add the piece between two joints, with a vertex at either, in whichever direction fits the lines
+ * there; a line that runs against it is turned round. For lines without a sense of direction. */
+enum hm_err hm_chain_join(struct hm_chain *c, struct hm_joint *a, struct hm_joint *b,
+                          const double *at_a, const double *at_b, struct hm_diag *d);
+
 /* No more pieces come to this joint; it is cleared. */
 enum hm_err hm_chain_seal(struct hm_chain *c, struct hm_joint *joint, struct hm_diag *d);
 

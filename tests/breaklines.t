@@ -71,6 +71,36 @@ slope -b bank.hm | breaklines -b -s 9 2>/dev/null >binary.hm
 breaklines -s 9 slope.hm 2>/dev/null | head -n 1 >/dev/null
 ok "binary lines are shorter" [ "$(wc -c <binary.hm)" -lt "$(wc -c <lines.hm)" ]
 
+# curvature: toe and crest of the bank
+breaklines -m curvature bank.hm >curved.hm 2>/dev/null
+true_that "curvature: a bank has two lines" "$(count curved.hm) == 2"
+ok "a crest and a toe" sh -c "grep -q '^> kind=crest limit=0.06 length=1' curved.hm && grep -q '^> kind=toe limit=0.06 length=1' curved.hm"
+true_that "each where it belongs, to a third of a cell" "$(awk '/^> kind=toe/ { side = -3 } /^> kind=crest/ { side = 3 }
+    !/^[#>]/ { e = ($2 - 940) * 0.96 - ($1 - 560) * 0.28 - side; if (e < 0) e = -e; if (e > m) m = e; n++ }
+    END { print (n > 200 ? m : 9) }' curved.hm) < 0.33"
+# levee and ditch, narrower than any limit of slope could tell: ridge, foot, bottom
+awk 'BEGIN { print "#hm 1 grid text"; print "#size 140 60"; print "#origin 0 0"; print "#step 1 1"
+    print "#fields x y z"; print "#data"
+    for (j = 0; j < 60; j++) for (i = 0; i < 140; i++) { a = i + 0.3 * j - 50.3; b = i + 0.3 * j - 90.7
+        a = 1.5 - (a < 0 ? -a : a) / 3; b = 1.2 - (b < 0 ? -b : b) / 2; print i, j, (a > 0 ? a : 0) - (b > 0 ? b : 0) }
+    print "#end" }' >narrow.hm
+breaklines -m curvature -s 0.1 narrow.hm >curved.hm 2>/dev/null
+true_that "levee: a ridge and two feet; ditch: a bottom and two crests" \
+    "$(grep -c kind=crest curved.hm) == 3 && $(grep -c kind=toe curved.hm) == 3"
+true_that "ridge and bottom run along the middle" "$(awk '!/^[#>]/ { u = $1 + 0.3 * $2; if (u > 48 && u < 52.6) e = u - 50.3
+    else if (u > 88.5 && u < 93) e = u - 90.7; else next; if (e < 0) e = -e; if (e > m) m = e; n++ }
+    END { print (n > 100 ? m : 9) }' curved.hm) < 0.35"
+awk '!/^#/ && $2 == 30 { $3 = "nan" } { print }' narrow.hm >cut.hm
+breaklines -m curvature -s 0.1 cut.hm >curved.hm 2>/dev/null
+true_that "lines end at nodata" "$(count curved.hm) == 12 && $(awk '!/^[#>]/ && $2 > 27 && $2 < 33' curved.hm | wc -l) == 0"
+awk '/^#/ || ($3 = 0.2 * $1 - 0.1 * $2) != "" { print }' narrow.hm >level.hm
+breaklines -m curvature -s 0.001 -l 0 level.hm >curved.hm 2>/dev/null
+true_that "a plane has none" "$(count curved.hm) == 0"
+breaklines -m curvature -s 0.01 -l 0 -j 1 rough.hm >a.hm 2>/dev/null
+breaklines -m curvature -s 0.01 -l 0 -j 2 rough.hm >b.hm 2>/dev/null
+same "one thread as two: curvature" a.hm b.hm
+must_fail "a slope for a curvature" 2 '1/m' breaklines -m curvature -s 10% narrow.hm
+
 # an exact hit everywhere: a plane at just the limit is steep, all of it, and has no border
 awk '/^#/ && !/^#end/ { print } !/^#/ { print $1, $2, $3, 8 } END { print "#end" }' rough.hm >level.hm
 breaklines -s 8 -l 0 level.hm >a.hm 2>/dev/null

@@ -1,33 +1,39 @@
-/* breaklines: lines where the slope of the ground passes a limit, from a grid, row by row. */
+/* breaklines: lines where the slope of the ground passes a limit, or where it bends most, from a
+ * grid, row by row. */
 #include "hm_attr.h"
 #include "hm_cli.h"
 #include "hm_contour.h"
 #include "hm_lineedit.h"
 #include "hm_num.h"
 #include "hm_polyline.h"
+#include "hm_ridge.h"
 #include "hm_simplify.h"
 #include "hm_slope.h"
 #include "hm_uncross.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Modes beyond those of hm_contour. */
+enum { CURVATURE = HM_CONTOUR_NODE + 1 };
+
 static struct {
-    const char *limits;
+    const char *limits; /* NULL: by the mode */
     int mode, saddle;
     const char *slope_file;
     double least; /* metres; < 0: by the spacing of the grid */
     double simplify, resample, smooth;
     bool resampled, simplified, smoothed;
-} cmd = {.limits = "5", .least = -1};
+} cmd = {.least = -1};
 
 static const struct hm_option options[] = {
     {'s', "limit", "LIMIT[,...]", HM_OPT_TEXT, &cmd.limits,
-     .help = "limit slopes in degrees, or in percent as 10% (default 5)"},
+     .help = "limits, degrees or 10% (default 5); curvature: 1/m (0.06)"},
     {'m', "mode", "NAME", HM_OPT_CHOICE, &cmd.mode,
-     .help = "interpolated lines or the border of the steep nodes (default interp)",
-     .choices = "interp|node"},
+     .help = "border of the steep, or ridges of curvature (default interp)",
+     .choices = "interp|node|curvature"},
     {'x', "saddle", "NAME", HM_OPT_CHOICE, &cmd.saddle,
      .help = "vertices: the crossings of a cell, or their mean (default split)",
      .choices = "split|mean"},
@@ -46,7 +52,7 @@ static const struct hm_option options[] = {
 
 static const struct hm_program program = {
     .name = "breaklines",
-    .purpose = "grid with slope → lines where the slope passes a limit",
+    .purpose = "grid with slope → lines where the slope passes a limit, or bends most",
     .operands = "[file ...]",
     .options = options,
     .needs = HM_GRID,
@@ -54,12 +60,20 @@ static const struct hm_program program = {
 
 struct tool;
 
+/* Lines of one limit, and with curvature of one kind. */
+struct strand {
+    const struct limit *limit;
+    const char *kind; /* "crest", "toe"; NULL: by slope */
+};
+
 struct limit {
     struct tool *tool;
     char text[HM_NUM_CHARS + 2]; /* as the user wrote it */
     double value;
     bool percent;
-    struct hm_contour *contour;
+    struct strand strand[HM_RIDGE_KINDS];
+    struct hm_contour *contour; /* by slope, */
+    struct hm_ridge *ridge;     /* or by curvature */
 };
 
 struct tool {
@@ -94,9 +108,14 @@ static void parse_limit(struct tool *t, const char *s, const char *end)
     l->tool = t;
     const char *rest = hm_num_parse(s, end, &l->value);
     l->percent = rest && rest < end && *rest == '%';
-    double most = l->percent ? INFINITY : 90;
-    if (!rest || rest + l->percent != end || !(l->value > 0 && l->value < most) ||
-        (size_t)(end - s) >= sizeof l->text)
+    bool by_slope = cmd.mode != CURVATURE;
+    double most = l->percent || !by_slope ? INFINITY : 90;
+    bool good = rest && rest + l->percent == end && l->value > 0 && l->value < most &&
+                (size_t)(end - s) < sizeof l->text && (by_slope || !l->percent);
+    if (!good && !by_slope)
+        hm_cli_die(t->cli, "-s: with -m curvature a limit is more than 0, in 1/m; got '%.*s'",
+                   (int)(end - s), s);
+    if (!good)
         hm_cli_die(t->cli,
                    "-s: a limit is more than 0 and less than 90 degrees, or a percentage "
                    "as 10%%; got '%.*s'",
@@ -106,6 +125,8 @@ static void parse_limit(struct tool *t, const char *s, const char *end)
 
 static void parse_limits(struct tool *t)
 {
+    if (!cmd.limits)
+        cmd.limits = cmd.mode == CURVATURE ? "0.06" : "5";
     t->limit = need(t->cli, strlen(cmd.limits) + 1, sizeof *t->limit);
     const char *s = cmd.limits, *end;
     do {
@@ -216,10 +237,11 @@ static bool changes_lines(void)
 /* A line as it was found: clean it, judge it, and let it out unless all are needed first. */
 static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_diag *d)
 {
-    const struct limit *l = arg;
-    struct tool *t = l->tool;
-    char attrs[sizeof l->text + 8] = "limit=";
-    strcat(attrs, l->text);
+    const struct strand *s = arg;
+    struct tool *t = s->limit->tool;
+    char attrs[sizeof s->limit->text + 24];
+    snprintf(attrs, sizeof attrs, "%s%s%slimit=%s", s->kind ? "kind=" : "", s->kind ? s->kind : "",
+             s->kind ? " " : "", s->limit->text);
     struct hm_line line = *found;
     line.attrs = attrs;
     hm_lineedit_tidy(&line);
@@ -234,22 +256,66 @@ static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_d
 
 /* --- one grid --- */
 
-static void open_contours(struct tool *t, const struct hm_header *h, enum hm_slope_unit unit)
+static void open_ridge(struct tool *t, struct limit *l, const struct hm_header *h)
+{
+    static const char *const kind[HM_RIDGE_KINDS] = {"crest", "toe"};
+    struct hm_diag d = {0};
+    struct hm_ridge_rule rule = {.limit = l->value, .take = take_line};
+    for (int k = 0; k < HM_RIDGE_KINDS; k++) {
+        l->strand[k] = (struct strand){l, kind[k]};
+        rule.arg[k] = &l->strand[k];
+    }
+    hm_cli_check(t->cli, hm_ridge_new(&l->ridge, &h->lattice, &rule, &d), &d);
+}
+
+static void open_limits(struct tool *t, const struct hm_header *h, enum hm_slope_unit unit)
 {
     for (size_t k = 0; k < t->nlimits; k++) {
         struct limit *l = &t->limit[k];
         struct hm_diag d = {0};
+        if (cmd.mode == CURVATURE) {
+            open_ridge(t, l, h);
+            continue;
+        }
+        l->strand[0] = (struct strand){l, NULL};
         struct hm_contour_rule rule = {.mode = (enum hm_contour_mode)cmd.mode,
                                        .saddle = (enum hm_contour_saddle)cmd.saddle,
                                        .take = take_line,
-                                       .arg = l};
+                                       .arg = &l->strand[0]};
         rule.limit =
             hm_slope_convert(l->value, l->percent ? HM_SLOPE_PERCENT : HM_SLOPE_DEGREE, unit);
         hm_cli_check(t->cli, hm_contour_new(&l->contour, &h->lattice, &rule, &d), &d);
     }
 }
 
-static void trace_rows(struct tool *t, struct source *heights, struct source *slopes, int64_t ny)
+static void close_limits(struct tool *t)
+{
+    for (size_t k = 0; k < t->nlimits; k++) {
+        struct limit *l = &t->limit[k];
+        struct hm_diag d = {0};
+        hm_cli_check(t->cli, l->ridge ? hm_ridge_end(l->ridge, &d) : hm_contour_end(l->contour, &d),
+                     &d);
+        hm_contour_free(l->contour);
+        hm_ridge_free(l->ridge);
+        l->contour = NULL;
+        l->ridge = NULL;
+    }
+}
+
+static void trace_curvature(struct tool *t, struct source *heights, int64_t ny)
+{
+    struct hm_diag d = {0};
+    double *z = need(t->cli, heights->nx, sizeof *z);
+    for (int64_t j = 0; next_row(t->cli, heights); j++) {
+        take_band(heights, heights->band, z);
+        for (size_t k = 0; k < t->nlimits; k++)
+            hm_cli_check(t->cli, hm_ridge_row(t->limit[k].ridge, z, &d), &d);
+        hm_cli_progress(t->cli, "breaklines", (double)j / (double)ny);
+    }
+    free(z);
+}
+
+static void trace_slope(struct tool *t, struct source *heights, struct source *slopes, int64_t ny)
 {
     struct hm_cli *cli = t->cli;
     size_t nx = heights->nx;
@@ -265,12 +331,22 @@ static void trace_rows(struct tool *t, struct source *heights, struct source *sl
             hm_cli_check(cli, hm_contour_row(t->limit[k].contour, slope + at, z + at, &d), &d);
         hm_cli_progress(cli, "breaklines", (double)j / (double)ny);
     }
-    for (size_t k = 0; k < t->nlimits; k++) {
-        hm_cli_check(cli, hm_contour_end(t->limit[k].contour, &d), &d);
-        hm_contour_free(t->limit[k].contour);
-    }
     free(slope);
     free(z);
+}
+
+static void do_slope(struct tool *t, const struct hm_header *h, struct source *heights)
+{
+    enum hm_slope_unit unit;
+    struct source slopes = open_slope(t->cli, h, &unit);
+    open_limits(t, h, unit);
+    trace_slope(t, heights, &slopes, h->lattice.ny);
+    if (slopes.reader != heights->reader) {
+        if (next_row(t->cli, &slopes))
+            hm_cli_die(t->cli, "%s: too many rows", hm_reader_name(slopes.reader));
+        hm_reader_close(slopes.reader);
+    }
+    free(slopes.row);
 }
 
 static void do_grid(struct tool *t, const struct hm_header *h)
@@ -278,19 +354,16 @@ static void do_grid(struct tool *t, const struct hm_header *h)
     int column = hm_header_field(h, "z");
     if (column < 2)
         hm_cli_die(t->cli, "%s: the grid has no band z", hm_reader_name(hm_cli_reader(t->cli)));
-    enum hm_slope_unit unit;
     struct source heights = make_source(t->cli, hm_cli_reader(t->cli), h, column);
-    struct source slopes = open_slope(t->cli, h, &unit);
     t->least = cmd.least >= 0 ? cmd.least : 10 * fmax(fabs(h->lattice.dx), fabs(h->lattice.dy));
-    open_contours(t, h, unit);
-    trace_rows(t, &heights, &slopes, h->lattice.ny);
-    if (slopes.reader != heights.reader) {
-        if (next_row(t->cli, &slopes))
-            hm_cli_die(t->cli, "%s: too many rows", hm_reader_name(slopes.reader));
-        hm_reader_close(slopes.reader);
+    if (cmd.mode == CURVATURE) {
+        open_limits(t, h, HM_SLOPE_DEGREE);
+        trace_curvature(t, &heights, h->lattice.ny);
+    } else {
+        do_slope(t, h, &heights);
     }
+    close_limits(t);
     free(heights.row);
-    free(slopes.row);
 }
 
 static void begin_output(struct hm_cli *cli)

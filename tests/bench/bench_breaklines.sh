@@ -25,6 +25,7 @@ paper_half() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet -s 11 -l 3
 smoothed() { bsgrid --quiet -b -B 6 "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
 points() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
 fine() { bsgrid --quiet -b -B 6 -n 2 -f points -O 2 "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
+curvature() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | breaklines --quiet -m curvature -l 20 >found.hm; }
 gdal() { # the same start grid; contour lines of the slope, those shorter than 30 m left out
     bsgrid --quiet -n 0 -k 1 "$1" | hmconv -t asc >dem.asc
     gdaldem slope -q dem.asc slope.tif
@@ -39,7 +40,7 @@ breaklines_of_gmt() {
         END { put() }' "$1"
 }
 
-ways="old_way paper_5 paper_half smoothed points fine"
+ways="old_way paper_5 paper_half smoothed points fine curvature"
 name() {
     case $1 in
     old_way) echo "linear grid, nodes, 11" ;;
@@ -48,6 +49,7 @@ name() {
     smoothed) echo "... -B 6, smoothed -w 0.5" ;;
     points) echo "... and -n 3 -f points" ;;
     fine) echo "... -n 2 -f points -O 2" ;;
+    curvature) echo "-m curvature" ;;
     gdal) echo "gdaldem, gdal_contour, 11" ;;
     esac
 }
@@ -75,7 +77,7 @@ done
 
 # goals, for lines at half the bank's slope
 echo
-awk '$1 == "main,tributary,levee" && $2 == "0.05" && $3 ~ /^(paper_half|smoothed|points|fine)$/ {
+awk '$1 == "main,tributary,levee" && $2 == "0.05" && $3 ~ /^(paper_half|smoothed|points|fine|curvature)$/ {
         goal($3 " p95, m", $5, "<=", 0.75); goal($3 " found, %", $6, ">=", 97)
         goal($3 " false, %", $7, "<=", 3); goal($3 " ratio", $8, "<=", 1.03) }
     function goal(what, got, sign, want, ok) {

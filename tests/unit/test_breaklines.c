@@ -335,6 +335,59 @@ static void test_random(void)
     hm_lines_free(&simple);
 }
 
+/* --- joining pieces without direction --- */
+
+static enum hm_err keep_any(void *arg, const struct hm_line *found, struct hm_diag *d)
+{
+    struct hm_line line = *found;
+    line.attrs = (char[]){""};
+    return hm_lines_append(arg, &line, d);
+}
+
+/* Pieces of one line in any order and direction give that line, either way round. */
+static void test_join(bool closed)
+{
+    enum { N = 60 };
+    struct hm_lines lines = {0};
+    struct hm_chain *c;
+    struct hm_joint joint[N];
+    double at[N][3];
+    size_t order[N], pieces = closed ? N : N - 1, bad = 0;
+    uint32_t seed = 7;
+    for (int run = 0; run < 200; run++) {
+        hm_chain_new(&c, keep_any, &lines, NULL);
+        for (size_t k = 0; k < N; k++) {
+            hm_joint_clear(&joint[k]);
+            at[k][0] = (double)k;
+            at[k][1] = at[k][2] = 0;
+            order[k] = k;
+        }
+        for (size_t k = pieces; k-- > 1;) {
+            seed = seed * 1664525u + 1013904223u;
+            size_t other = (seed >> 8) % (k + 1), swap = order[k];
+            order[k] = order[other];
+            order[other] = swap;
+        }
+        for (size_t k = 0; k < pieces; k++) {
+            size_t a = order[k], b = (a + 1) % N;
+            seed = seed * 1664525u + 1013904223u;
+            bool turned = seed >> 31;
+            hm_chain_join(c, &joint[turned ? b : a], &joint[turned ? a : b], at[turned ? b : a],
+                          at[turned ? a : b], NULL);
+        }
+        for (size_t k = 0; k < N; k++)
+            hm_chain_seal(c, &joint[k], NULL);
+        bad += lines.n != 1 || lines.line[0].n != N || lines.line[0].closed != closed;
+        for (size_t k = 1; lines.n == 1 && k < lines.line[0].n; k++) {
+            double step = fabs(lines.line[0].xyz[3 * k] - lines.line[0].xyz[3 * k - 3]);
+            bad += step != 1 && !(closed && step == N - 1);
+        }
+        hm_lines_free(&lines);
+        hm_chain_free(c);
+    }
+    ok(bad == 0, "pieces in any order and direction are one %s line", closed ? "closed" : "open");
+}
+
 /* --- changes of a line --- */
 
 static void test_smooth(void)
@@ -362,6 +415,8 @@ int main(void)
     test_peak();
     test_saddle();
     test_random();
+    test_join(false);
+    test_join(true);
     test_smooth();
     test_uncross();
     return done();

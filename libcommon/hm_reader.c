@@ -24,13 +24,13 @@ static enum hm_err make(struct hm_reader **r, struct hm_input *in, enum hm_err e
 
 enum hm_err hm_reader_open(struct hm_reader **r, const char *path, struct hm_diag *d)
 {
-    struct hm_input in;
+    struct hm_input in = {.fd = -1};
     return make(r, &in, hm_input_open(&in, path, d), d);
 }
 
 enum hm_err hm_reader_open_fd(struct hm_reader **r, int fd, const char *name, struct hm_diag *d)
 {
-    struct hm_input in;
+    struct hm_input in = {.fd = -1};
     return make(r, &in, hm_input_open_fd(&in, fd, name, d), d);
 }
 

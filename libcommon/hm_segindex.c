@@ -296,7 +296,8 @@ void hm_segindex_box(const struct hm_segindex *x, const double lo[2], const doub
                 return;
         return;
     }
-    qsort(item, n, sizeof *item, by_item);
+    if (n > 1)
+        qsort(item, n, sizeof *item, by_item);
     for (size_t k = 0; k < n; k++)
         if ((k == 0 || item[k] != item[k - 1]) && meets_box(&x->s[item[k]], lo, hi) &&
             !visit(arg, &x->s[item[k]]))

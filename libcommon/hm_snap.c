@@ -357,9 +357,10 @@ static enum hm_err glide(const struct fit *f, const struct target *const *way, d
                          struct hm_diag *d)
 {
     size_t n = f->bank->n;
-    double *s = hm_alloc(2 * n, sizeof *s), *next = s + n, most = 0;
+    double *s = hm_alloc(2 * n, sizeof *s), most = 0;
     if (!s)
         return hm_fail_memory(d);
+    double *next = s + n;
     for (size_t i = 0; i < n; i++) {
         const double *p = rough(f, i), *before = rough(f, i > 0 ? i - 1 : 0);
         most += hypot(p[0] - before[0], p[1] - before[1]) / (double)(n - 1) / 2;

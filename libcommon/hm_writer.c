@@ -26,7 +26,7 @@ static enum hm_err make(struct hm_writer **w, struct hm_output *out, struct hm_f
 enum hm_err hm_writer_open(struct hm_writer **w, const char *path, struct hm_format format,
                            struct hm_diag *d)
 {
-    struct hm_output out;
+    struct hm_output out = {0};
     *w = NULL;
     if (format.decimals < 0 || format.decimals > 17)
         return hm_fail(d, HM_EARG, "places behind the point: 1 to 17");
@@ -36,7 +36,7 @@ enum hm_err hm_writer_open(struct hm_writer **w, const char *path, struct hm_for
 enum hm_err hm_writer_open_fd(struct hm_writer **w, int fd, const char *name,
                               struct hm_format format, struct hm_diag *d)
 {
-    struct hm_output out;
+    struct hm_output out = {0};
     return make(w, &out, format, hm_output_open_fd(&out, fd, name, d), d);
 }
 

@@ -234,7 +234,7 @@ static void find_heights(struct hm_cli *cli, struct drawing *drawing)
         else if (layer->kind == HM_MESH)
             err = sample_mesh(&s, v, &layer->of.mesh, &d);
         hm_cli_check(cli, err, &d);
-        struct scale own;
+        struct scale own = {0};
         scale_name(&own, header_of(layer), 2, "z");
         if (layer->kind == HM_LINES)
             continue;

@@ -81,7 +81,7 @@ static enum hm_err exercise(struct hm_tri *t, const double *xy, struct hm_diag *
 int main(void)
 {
     double *xy = tri_points(SET_UNIFORM, N);
-    memcpy(xy + 20, xy, 10 * sizeof *xy); /* some twice */
+    memmove(xy + 20, xy, 10 * sizeof *xy); /* some twice */
     uint64_t seed = tri_seed;
     long fails = 0, wrong = 0, broken = 0;
     for (bool complete = false; !complete; fails++) {

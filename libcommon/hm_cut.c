@@ -207,6 +207,20 @@ enum hm_err hm_cut_more(struct hm_cut *cut, const struct hm_mesh *lower, double 
     return trim(lower, cut, d);
 }
 
+enum hm_err hm_cut_around(struct hm_cut *cut, const struct hm_mesh *lower, const bool *node,
+                          int64_t *more, struct hm_diag *d)
+{
+    *more = 0;
+    for (size_t i = 0; i < lower->nelems; i++)
+        for (int k = 0; !cut->gone[i] && k < hm_elem_corners(&lower->elem[i]); k++)
+            if (node[lower->elem[i].node[k]]) {
+                cut->gone[i] = true;
+                ++*more;
+            }
+    cut->near += *more;
+    return *more > 0 ? trim(lower, cut, d) : HM_OK;
+}
+
 void hm_cut_free(struct hm_cut *cut)
 {
     free(cut->gone);

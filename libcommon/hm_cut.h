@@ -32,6 +32,9 @@ enum hm_err hm_cut_mark(struct hm_cut *cut, const struct hm_border *higher,
  * loose. HM_EGEOM when nothing is left to cut. */
 enum hm_err hm_cut_more(struct hm_cut *cut, const struct hm_mesh *lower, double x, double y,
                         int edges, struct hm_diag *d);
+/* Cut all elements at the nodes marked; they count as near. *more: how many. */
+enum hm_err hm_cut_around(struct hm_cut *cut, const struct hm_mesh *lower, const bool *node,
+                          int64_t *more, struct hm_diag *d);
 void hm_cut_free(struct hm_cut *cut);
 
 #endif

@@ -12,6 +12,9 @@
  */
 static const double notch_degrees = 20, notch_part = 0.6;
 
+/* A node of the outline may be left out when the outline without it passes so near: in edges. */
+static const double most_off = 0.25;
+
 /* How many nodes of the outline may be left out at its end, to get a better one. */
 enum { MOST_TRIMMED = 12 };
 
@@ -54,6 +57,7 @@ static void attach(const struct hm_border *h, const size_t *prev, struct hm_cros
 {
     x->attach = h->loops.node[place];
     x->beyond = h->loops.node[place_before(h, prev, place, !x->enter)];
+    x->inward = h->loops.node[place_before(h, prev, place, x->enter)];
 }
 
 static double distance_from(const struct hm_border *h, const struct hm_crossing *x, size_t place)
@@ -63,22 +67,36 @@ static double distance_from(const struct hm_border *h, const struct hm_crossing 
     return hypot(a[0] + x->at * (b[0] - a[0]) - p[0], a[1] + x->at * (b[1] - a[1]) - p[1]);
 }
 
-/* A mouth from crossing `begin` to crossing `end` needs two nodes. With fewer inside, the nodes
- * beside it are taken: with one, at the side where that is nearer. True when so. */
-static bool widen(const struct hm_border *h, const size_t *prev, struct hm_crossing *begin,
-                  struct hm_crossing *end)
+/* The nearer end of the edge in which a crossing lies. */
+static size_t nearest_place(const struct hm_border *h, const size_t *prev,
+                            const struct hm_crossing *x)
+{
+    size_t inner = inner_place(h, x), outer = place_before(h, prev, inner, !x->enter);
+    return distance_from(h, x, outer) < distance_from(h, x, inner) ? outer : inner;
+}
+
+/* A mouth from crossing `begin` to crossing `end` takes the nodes nearest to these. It needs two:
+ * where they are the same, the next one is taken at the side where it is nearer, and of a mouth
+ * inside one edge both ends of that. True when so. */
+static bool open_mouth(const struct hm_border *h, const size_t *prev, struct hm_crossing *begin,
+                       struct hm_crossing *end)
 {
     size_t first = inner_place(h, begin), last = inner_place(h, end);
-    bool none = first == h->next[last] && begin->edge == end->edge && begin->at <= end->at;
-    if (first != last && !none)
-        return false;
-    size_t before = prev[first], behind = h->next[last];
-    bool at_begin = distance_from(h, begin, before) < distance_from(h, end, behind);
-    if (none || at_begin)
-        attach(h, prev, begin, before);
-    if (none || !at_begin)
-        attach(h, prev, end, behind);
-    return true;
+    if (first == h->next[last] && begin->edge == end->edge && begin->at <= end->at) {
+        attach(h, prev, begin, prev[first]);
+        attach(h, prev, end, h->next[last]);
+        return true;
+    }
+    first = nearest_place(h, prev, begin);
+    last = nearest_place(h, prev, end);
+    bool same = first == last;
+    if (same && distance_from(h, begin, prev[first]) < distance_from(h, end, h->next[last]))
+        first = prev[first];
+    else if (same)
+        last = h->next[last];
+    attach(h, prev, begin, first);
+    attach(h, prev, end, last);
+    return same;
 }
 
 enum hm_err hm_mouth_find(struct hm_stretches *c, const struct hm_border *h, int64_t *widened,
@@ -108,7 +126,7 @@ enum hm_err hm_mouth_find(struct hm_stretches *c, const struct hm_border *h, int
             struct hm_crossing *end = &c->crossing[order[j].number];
             struct hm_crossing *start = &c->crossing[order[j > begin ? j - 1 : i - 1].number];
             if (end->enter && !start->enter)
-                *widened += widen(h, prev, start, end);
+                *widened += open_mouth(h, prev, start, end);
         }
     }
     free(order);
@@ -143,36 +161,61 @@ static bool is_hidden(const struct hm_border *b, const double *p, const double *
     return false;
 }
 
-static bool crosses(const struct hm_border *b, const double *p, const double *q)
+/* The outline in the order in which its nodes may be left out: node(k) is node[k * step]. */
+struct tail {
+    const int32_t *node;
+    ptrdiff_t step;
+};
+
+static int32_t tail_node(const struct tail *t, size_t k)
+{
+    return t->node[(ptrdiff_t)k * t->step];
+}
+
+static bool is_left_out(const struct tail *t, size_t j, int32_t node)
+{
+    for (size_t k = 0; k < j; k++)
+        if (tail_node(t, k) == node)
+            return true;
+    return false;
+}
+
+/* Does the way from p to q cross the outline, other than where nodes before number j are left out?
+ */
+static bool crosses(const struct hm_border *b, const struct tail *t, size_t j, const double *p,
+                    const double *q)
 {
     struct hm_boxquery query = hm_boxtree_find(b->tree, hm_box_of(p, q));
     for (int32_t k; (k = hm_boxtree_next(&query)) >= 0;)
-        if (hm_plane_cross(p, q, hm_border_from(b, (size_t)k), hm_border_to(b, (size_t)k)))
+        if (hm_plane_cross(p, q, hm_border_from(b, (size_t)k), hm_border_to(b, (size_t)k)) &&
+            !is_left_out(t, j, b->loops.node[k]) && !is_left_out(t, j, b->loops.node[b->next[k]]))
             return true;
     return false;
 }
 
 /* What speaks against ending the outline at node `j`, counted from the crossing; INT_MAX: it cannot
- * be. node(k) is node[k * step]. */
-static int objection(const struct hm_crossing *x, const int32_t *node, ptrdiff_t step, size_t j,
-                     double notch, const struct hm_sides *s)
+ * be. */
+static int objection(const struct hm_crossing *x, const struct tail *t, size_t j, double notch,
+                     const struct hm_sides *s)
 {
-    int32_t last = node[(ptrdiff_t)j * step];
-    const double *p = hm_mesh_xy(s->lower, last), *r = hm_mesh_xy(s->higher->mesh, x->attach);
-    const double *beyond = hm_mesh_xy(s->higher->mesh, x->beyond);
+    int32_t last = tail_node(t, j);
+    const struct hm_mesh *higher = s->higher->mesh;
+    const double *p = hm_mesh_xy(s->lower, last), *r = hm_mesh_xy(higher, x->attach);
     if (is_hidden(s->higher, p, r) || is_hidden(s->rest, p, r))
         return INT_MAX;
     int against = 0;
-    bool out = crosses(s->outline, p, r);
-    for (size_t k = 0; k < j; k++) { /* nodes left out must lie outside the new outline */
-        int turn = hm_pred_orient(p, r, hm_mesh_xy(s->lower, node[(ptrdiff_t)k * step]));
-        out |= x->enter ? turn > 0 : turn < 0;
-    }
-    if (out)
+    bool off = crosses(s->outline, t, j, p, r);
+    for (size_t k = 0; k < j; k++)
+        off |= hm_plane_distance(hm_mesh_xy(s->lower, tail_node(t, k)), p, r) >
+               most_off * s->size[last];
+    if (off)
         against += 4;
-    if (hm_plane_angle(r, beyond, p) < notch)
+    if (hm_plane_angle(r, hm_mesh_xy(higher, x->beyond), p) < notch)
         against += 2;
-    if (!s->kept[last] && hypot(r[0] - p[0], r[1] - p[1]) < HM_SIDES_CLEAR * s->size[last])
+    double inside = hm_plane_angle(r, hm_mesh_xy(higher, x->inward), p);
+    if (inside < notch_degrees)
+        against += inside < notch_degrees / 2 ? 5 : 2; /* a needle is worse than a bank bent */
+    if (!s->kept[last] && hm_border_is_near(s->higher, p, HM_SIDES_CLEAR, s->size[last]))
         against += 1;
     return against;
 }
@@ -183,6 +226,7 @@ enum hm_err hm_mouth_attach(const struct hm_stretches *c, const struct hm_stretc
 {
     const struct hm_crossing *x = &c->crossing[at_end ? stretch->to : stretch->from];
     const int32_t *node = c->node + stretch->first + (at_end ? stretch->count - 1 : 0);
+    const struct tail tail = {node, at_end ? -1 : 1};
     const double *a = hm_border_from(s->higher, x->edge), *b = hm_border_to(s->higher, x->edge);
     const double place[2] = {a[0] + x->at * (b[0] - a[0]), a[1] + x->at * (b[1] - a[1])};
     double junction =
@@ -190,12 +234,12 @@ enum hm_err hm_mouth_attach(const struct hm_stretches *c, const struct hm_stretc
     double notch = fmin(notch_degrees, notch_part * junction);
     int least = INT_MAX;
     for (size_t j = 0; j < limit && j < MOST_TRIMMED && least > 0; j++) {
-        int against = objection(x, node, at_end ? -1 : 1, j, notch, s);
+        int against = objection(x, &tail, j, notch, s);
         if (against < least) {
             least = against;
             *found = at_end ? stretch->count - 1 - j : j;
         }
-        if (s->kept[node[at_end ? -(ptrdiff_t)j : (ptrdiff_t)j]])
+        if (s->kept[tail_node(&tail, j)])
             break; /* a node of an element that stays cannot be left out */
     }
     if (least < INT_MAX)

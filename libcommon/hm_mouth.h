@@ -1,7 +1,7 @@
 /* hm_mouth: how the outline of the lower mesh ends at the border of the higher one. Layer 6.
  *
  * A mouth is a part of the higher border inside the lower mesh. The outline that leads up to it
- * comes in stretches; each ends in a node of the mouth.
+ * comes in stretches; each ends in the node of the border nearest to where it meets that.
  */
 #ifndef HM_MOUTH_H
 #define HM_MOUTH_H
@@ -14,7 +14,8 @@ struct hm_crossing {
     double at;      /* where on it, 0 .. 1; exact at the ends */
     bool enter;     /* walking the lower outline counter-clockwise */
     int32_t attach; /* node of the higher mesh where the outline ends instead */
-    int32_t beyond; /* the next node of that border, away from the mouth */
+    int32_t beyond; /* the next node of that border, away from the mouth, */
+    int32_t inward; /* and the next one in the mouth */
 };
 
 struct hm_stretch {

@@ -154,6 +154,20 @@ static enum hm_err add_segment(struct hm_outline *o, int32_t a, int32_t b, struc
     return HM_OK;
 }
 
+/* Is a stretch from crossing to crossing, with nothing that stays behind it, all so near to the
+ * higher mesh that only needles could fill what it bounds? */
+static bool is_grazing(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                       const struct hm_sides *s)
+{
+    bool grazing = stretch->from >= 0 && stretch->to >= 0;
+    for (size_t i = 0; grazing && i < stretch->count; i++) {
+        int32_t node = c->node[stretch->first + i];
+        grazing = !s->kept[node] && hm_border_is_near(s->higher, hm_mesh_xy(s->lower, node),
+                                                      HM_SIDES_CLEAR, s->size[node]);
+    }
+    return grazing;
+}
+
 /* The segments of one stretch, from the node where it leaves the higher mesh, if it does, to the
  * one where it ends there. A stretch that cannot be joined to the higher mesh is left out, and with
  * it the ground behind it, when nothing of the lower mesh stays that would then be cut off. */
@@ -164,6 +178,8 @@ static enum hm_err add_stretch(struct hm_outline *o, const struct hm_stretches *
     size_t first = 0, last = stretch->count - 1;
     struct hm_diag failure = {0};
     enum hm_err err = HM_OK;
+    if (is_grazing(c, stretch, s))
+        return HM_OK;
     if (stretch->from >= 0)
         err = hm_mouth_attach(c, stretch, false, s, stretch->count, &first, &failure);
     if (!err && stretch->to >= 0)

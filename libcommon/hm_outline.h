@@ -2,9 +2,9 @@
  *
  * Where elements of the lower mesh were cut away, its old outline (the river bank) remains the
  * outline of the union, up to the higher mesh. Where it meets the higher mesh's border there is no
- * node, and none may be added; there it ends in the first node of that border inside the lower
- * mesh's footprint, so that the filled gap stays within the union of the footprints. Only a mouth
- * with fewer than two such nodes is widened to the nodes beside it.
+ * node, and none may be added; there it ends in the nearest node of that border. A mouth narrower
+ * than two of its edges is widened to the nodes beside it. A piece that hardly looks out of the
+ * higher mesh is left out.
  */
 #ifndef HM_OUTLINE_H
 #define HM_OUTLINE_H

@@ -1,6 +1,7 @@
 #include "hm_seam.h"
 
 #include "hm_elem.h"
+#include "hm_infill.h"
 #include "hm_plane.h"
 #include "hm_tri.h"
 
@@ -8,10 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Inner nodes keep this part of their size away from the outer sides of the gap. */
-static const double side_clear = 0.4;
+/* Triangles of the gap with an angle under this many degrees are mended where they can be. */
+static const double good_angle = 25;
 
-enum { MARK = 1 }; /* of all constraints */
+enum {
+    MARK = 1, /* of all constraints */
+    GAP = 1   /* region of the triangles that fill the gap */
+};
 
 /* All that belongs to one gap. */
 struct gap {
@@ -136,11 +140,12 @@ static bool is_free(const struct gap *g, const struct hm_boxtree *sides, int32_t
         hm_locate_element(g->s.in_higher, p[0], p[1]) >= 0 ||
         hm_border_is_near(g->s.higher, p, HM_SIDES_CLEAR, size))
         return false;
-    struct hm_boxquery q = hm_boxtree_find(sides, hm_box_grown(hm_box_of(p, p), side_clear * size));
+    struct hm_boxquery q =
+        hm_boxtree_find(sides, hm_box_grown(hm_box_of(p, p), HM_SIDES_CLEAR * size));
     for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;) {
         const struct hm_outline_segment *side = &g->sides.segment[i];
         if (hm_plane_distance(p, hm_sides_xy(&g->s, side->a), hm_sides_xy(&g->s, side->b)) <
-            side_clear * size)
+            HM_SIDES_CLEAR * size)
             return false;
     }
     return true;
@@ -213,8 +218,9 @@ static enum hm_err triangulate(struct gap *g, struct hm_diag *d)
 
 /* --- which triangles fill the gap --- */
 
-/* A component is gap when the middle of its largest triangle lies where elements were cut away, and
- * not in the higher mesh: so near nothing that rounding could matter. */
+/* Without outer sides a component is gap when the middle of its largest triangle lies where
+ * elements were cut away, and not in the higher mesh: so near nothing that rounding could matter.
+ */
 static bool is_gap(const struct gap *g, int32_t largest)
 {
     double p[2];
@@ -223,47 +229,149 @@ static bool is_gap(const struct gap *g, int32_t largest)
     return was >= 0 && g->s.gone[was] && hm_locate_element(g->s.in_higher, p[0], p[1]) < 0;
 }
 
-static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t region,
-                                 struct hm_seam *seam, struct hm_diag *d)
+enum side { NO_SIDE, GAP_SIDE, OTHER_SIDE };
+
+/* The outer sides have the gap on their left. They were put in last. */
+static void note_sides(const struct gap *g, const int32_t *component, uint8_t *side)
 {
-    struct hm_seam_triangle *tri;
-    if (!hm_grow(&seam->triangle, &seam->cap, seam->n + 1, sizeof *seam->triangle))
-        return hm_fail_memory(d);
-    tri = &seam->triangle[seam->n++];
-    double p[2];
-    hm_tri_centre(g->tri, k, p);
-    int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
-    tri->region = was >= 0 ? g->s.lower->elem[was].region : region;
-    const int32_t corner[3] = {hm_tri_org(g->tri, 3 * k), hm_tri_dest(g->tri, 3 * k),
-                               hm_tri_apex(g->tri, 3 * k)};
-    for (int i = 0; i < 3; i++) {
-        int64_t input = hm_tri_input(g->tri, corner[i]);
-        const double *at = hm_tri_xy(g->tri, corner[i]);
-        if (input < 0)
-            return hm_fail_at(d, HM_EGEOM, at[0], at[1],
-                              "the sides of the gap cross each other; try another buffer");
-        tri->node[i] = g->node[input];
+    for (size_t i = g->nsegments - g->sides.n; i < g->nsegments; i++) {
+        int32_t e = hm_tri_edge_between(g->tri, g->segment[i].a, g->segment[i].b);
+        if (e == HM_TRI_NONE)
+            continue; /* in pieces: others will say it */
+        int32_t left = component[e / 3], right = component[hm_tri_twin(g->tri, e) / 3];
+        if (left == right)
+            continue;
+        side[left] = GAP_SIDE;
+        if (side[right] == NO_SIDE)
+            side[right] = OTHER_SIDE;
     }
-    return HM_OK;
 }
 
-/* Component 0 is what hangs together with the outside of the hull. */
-static enum hm_err take_gaps(const struct gap *g, struct hm_seam *seam, struct hm_diag *d)
+/* Give the triangles that fill the gap the region GAP. Component 0 is what hangs together with the
+ * outside of the hull. */
+static enum hm_err find_gap(const struct gap *g, struct hm_diag *d)
 {
     struct hm_tri_components c;
     enum hm_err err = hm_tri_components(g->tri, MARK, &c, d);
     if (err)
         return err;
-    bool *gap = hm_alloc0((size_t)c.n, sizeof *gap);
-    if (!gap)
+    uint8_t *side = hm_alloc0((size_t)c.n, sizeof *side);
+    if (side)
+        note_sides(g, c.of, side);
+    else
         err = hm_fail_memory(d);
     for (int32_t i = 1; !err && i < c.n; i++)
-        gap[i] = is_gap(g, c.largest[i]);
+        if (side[i] == NO_SIDE && is_gap(g, c.largest[i]))
+            side[i] = GAP_SIDE;
     for (int32_t k = 0; !err && k < hm_tri_triangles(g->tri); k++)
-        if (hm_tri_is_solid(g->tri, k) && gap[c.of[k]])
-            err = take_triangle(g, k, g->s.lower->elem[0].region, seam, d);
-    free(gap);
+        if (hm_tri_is_solid(g->tri, k) && c.of[k] > 0 && side[c.of[k]] == GAP_SIDE &&
+            hm_tri_set_region(g->tri, k, GAP))
+            err = hm_fail_memory(d);
+    free(side);
     hm_tri_components_free(&c);
+    return err;
+}
+
+/* --- what comes out --- */
+
+static bool is_in_gap(const struct gap *g, int32_t k)
+{
+    return hm_tri_is_solid(g->tri, k) && hm_tri_region(g->tri, k) == GAP;
+}
+
+/* Do constraints that cross leave a corner of the gap that is no node of either mesh? */
+static enum hm_err check_corners(const struct gap *g, struct hm_diag *d)
+{
+    for (int32_t e = 0; e < 3 * hm_tri_triangles(g->tri); e++) {
+        if (!is_in_gap(g, e / 3) || hm_tri_input(g->tri, hm_tri_org(g->tri, e)) >= 0)
+            continue;
+        const double *at = hm_tri_xy(g->tri, hm_tri_org(g->tri, e));
+        return hm_fail_at(d, HM_EGEOM, at[0], at[1],
+                          "the sides of the gap cross each other; try another buffer");
+    }
+    return HM_OK;
+}
+
+static const struct hm_node *nearest_node(const struct hm_mesh *m, const double *p)
+{
+    const struct hm_node *best = m->node;
+    for (size_t i = 1; i < m->nnodes; i++)
+        if (hypot(m->node[i].x - p[0], m->node[i].y - p[1]) < hypot(best->x - p[0], best->y - p[1]))
+            best = &m->node[i];
+    return best;
+}
+
+/* A new node at vertex v, on the lower mesh's surface; or, where the gap goes beyond that, as high
+ * as its nearest node. */
+static enum hm_err add_new(const struct gap *g, int32_t v, struct hm_seam *seam, struct hm_diag *d)
+{
+    const struct hm_mesh *lower = g->s.lower;
+    const double *p = hm_tri_xy(g->tri, v);
+    int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
+    const struct hm_elem *e = was >= 0 ? &lower->elem[was] : NULL;
+    const struct hm_node *like = e ? &lower->node[e->node[0]] : nearest_node(lower, p);
+    struct hm_node node = {p[0], p[1], like->z, 0, like->owner};
+    if (e)
+        node.z = hm_elem_height(lower, e, p[0], p[1]);
+    if (!hm_grow(&seam->node, &seam->node_cap, seam->nnodes + 1, sizeof node))
+        return hm_fail_memory(d);
+    seam->node[seam->nnodes++] = node;
+    return HM_OK;
+}
+
+/* What vertex v is: a node of either mesh, or, when it was moved or put in, a new one. */
+static enum hm_err node_of(const struct gap *g, int32_t v, int32_t *fresh, struct hm_seam *seam,
+                           int32_t *node, struct hm_diag *d)
+{
+    int64_t input = hm_tri_input(g->tri, v);
+    if (input >= 0 && hm_plane_same(g->xy[input], hm_tri_xy(g->tri, v))) {
+        *node = g->node[input];
+        return HM_OK;
+    }
+    enum hm_err err = HM_OK;
+    if (fresh[v] < 0) {
+        fresh[v] = (int32_t)seam->nnodes;
+        err = add_new(g, v, seam, d);
+    }
+    *node = ~((int32_t)g->s.lower->nnodes + fresh[v]);
+    return err;
+}
+
+static enum hm_err take_triangle(const struct gap *g, int32_t k, int32_t *fresh,
+                                 struct hm_seam *seam, struct hm_diag *d)
+{
+    if (!hm_grow(&seam->triangle, &seam->cap, seam->n + 1, sizeof *seam->triangle))
+        return hm_fail_memory(d);
+    struct hm_seam_triangle *tri = &seam->triangle[seam->n++];
+    double p[2];
+    hm_tri_centre(g->tri, k, p);
+    int64_t was = hm_locate_element(g->s.in_lower, p[0], p[1]);
+    tri->region = g->s.lower->elem[was >= 0 ? was : 0].region;
+    const int32_t corner[3] = {hm_tri_org(g->tri, 3 * k), hm_tri_dest(g->tri, 3 * k),
+                               hm_tri_apex(g->tri, 3 * k)};
+    const double *a = hm_tri_xy(g->tri, corner[0]), *b = hm_tri_xy(g->tri, corner[1]),
+                 *c = hm_tri_xy(g->tri, corner[2]);
+    tri->angle =
+        fmin(hm_plane_angle(a, b, c), fmin(hm_plane_angle(b, c, a), hm_plane_angle(c, a, b)));
+    enum hm_err err = HM_OK;
+    for (int i = 0; !err && i < 3; i++)
+        err = node_of(g, corner[i], fresh, seam, &tri->node[i], d);
+    return err;
+}
+
+static enum hm_err take_gap(const struct gap *g, struct hm_seam *seam, struct hm_diag *d)
+{
+    int32_t n = hm_tri_vertices(g->tri);
+    int32_t *fresh = hm_alloc((size_t)n, sizeof *fresh);
+    if (!fresh)
+        return hm_fail_memory(d);
+    for (int32_t v = 0; v < n; v++)
+        fresh[v] = -1;
+    enum hm_err err = HM_OK;
+    for (int32_t k = 0; !err && k < hm_tri_triangles(g->tri); k++)
+        if (is_in_gap(g, k))
+            err = take_triangle(g, k, fresh, seam, d);
+    free(fresh);
     return err;
 }
 
@@ -277,7 +385,13 @@ enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
     if (!err)
         err = triangulate(&g, d);
     if (!err)
-        err = take_gaps(&g, seam, d);
+        err = find_gap(&g, d);
+    if (!err)
+        err = check_corners(&g, d);
+    if (!err)
+        err = hm_infill_improve(g.tri, GAP, good_angle, d);
+    if (!err)
+        err = take_gap(&g, seam, d);
     seam->widened = g.sides.widened;
     hm_tri_free(g.tri);
     hm_outline_free(&g.sides);
@@ -298,5 +412,6 @@ enum hm_err hm_seam_fill(struct hm_seam *seam, const struct hm_border *higher,
 void hm_seam_free(struct hm_seam *seam)
 {
     free(seam->triangle);
+    free(seam->node);
     *seam = (struct hm_seam){0};
 }

@@ -23,7 +23,7 @@ struct hm_sides {
 
 /* Nodes nearer to the higher border than this times the larger of their size and the border's edge
  * are not used for the gap. */
-#define HM_SIDES_CLEAR 0.4
+#define HM_SIDES_CLEAR 0.25
 
 static inline const double *hm_sides_xy(const struct hm_sides *s, int32_t node)
 {

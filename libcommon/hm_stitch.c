@@ -6,6 +6,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* A gap with triangles under this many degrees is widened, if that helps. */
+static const double poor_angle = 15;
 
 /* Does p lie on the segment a–b, exactly, and not at an end? */
 static bool is_between(const double *p, const double *a, const double *b)
@@ -31,39 +35,49 @@ static bool fit(const struct hm_border *x, const struct hm_border *y)
     return common;
 }
 
-/* Number of a node of the lower mesh that the gap uses: that of the element kept, or new. */
-static enum hm_err gap_node(struct hm_join *j, const struct hm_mesh *lower, int32_t node,
-                            const struct hm_terrain *terrain, int32_t *map, int64_t *reused,
+/* A node of the lower mesh that the gap uses, which may be there from an element kept, or a new
+ * one: *number. Inside the gap the terrain gives heights. */
+static enum hm_err gap_node(struct hm_join *j, struct hm_node node,
+                            const struct hm_terrain *terrain, int32_t *number, int64_t *count,
                             struct hm_diag *d)
 {
-    if (map[node] >= 0)
+    if (*number >= 0)
         return HM_OK;
-    struct hm_node n = lower->node[node];
-    if (terrain && !(n.flags & HM_NODE_BOUNDARY)) {
+    if (terrain && !(node.flags & HM_NODE_BOUNDARY)) {
         int32_t hint = 0;
-        double z = hm_terrain_z(terrain, n.x, n.y, &hint);
-        n.z = isfinite(z) ? z : n.z;
+        double z = hm_terrain_z(terrain, node.x, node.y, &hint);
+        node.z = isfinite(z) ? z : node.z;
     }
-    ++*reused;
-    return hm_join_node(j, n, &map[node], d);
+    ++*count;
+    return hm_join_node(j, node, number, d);
 }
 
 static enum hm_err add_gap(struct hm_join *j, const struct hm_seam *seam,
                            const struct hm_mesh *lower, const struct hm_terrain *terrain,
-                           int32_t *map, int64_t *reused, struct hm_diag *d)
+                           int32_t *map, struct hm_stitched *s, struct hm_diag *d)
 {
-    enum hm_err err = HM_OK;
+    int32_t *fresh = hm_alloc(seam->nnodes, sizeof *fresh);
+    enum hm_err err = fresh ? HM_OK : hm_fail_memory(d);
+    for (size_t k = 0; !err && k < seam->nnodes; k++) {
+        fresh[k] = -1;
+        err = gap_node(j, seam->node[k], terrain, &fresh[k], &s->fresh, d);
+    }
     for (size_t i = 0; !err && i < seam->n; i++) {
         const struct hm_seam_triangle *t = &seam->triangle[i];
         struct hm_elem e = {.node = {0, 0, 0, -1}, .region = t->region};
         for (int k = 0; !err && k < 3; k++) {
-            if (t->node[k] < 0)
-                err = gap_node(j, lower, ~t->node[k], terrain, map, reused, d);
-            e.node[k] = t->node[k] < 0 ? map[~t->node[k]] : t->node[k];
+            size_t low = (size_t)~t->node[k];
+            e.node[k] = t->node[k];
+            if (t->node[k] >= 0)
+                continue;
+            if (low < lower->nnodes)
+                err = gap_node(j, lower->node[low], terrain, &map[low], &s->reused, d);
+            e.node[k] = low < lower->nnodes ? map[low] : fresh[low - lower->nnodes];
         }
         if (!err)
             err = hm_mesh_add_elem(&j->mesh, e, d);
     }
+    free(fresh);
     return err;
 }
 
@@ -75,7 +89,7 @@ static enum hm_err sew(struct hm_join *j, const struct hm_mesh *lower, const str
     enum hm_err err = hm_join_mesh(j, lower, cut ? cut->gone : NULL, 0, map, &s->joined, d);
     s->kept = (int64_t)(j->mesh.nelems - before);
     if (!err)
-        err = add_gap(j, seam, lower, terrain, map, &s->reused, d);
+        err = add_gap(j, seam, lower, terrain, map, s, d);
     s->filled = (int64_t)seam->n;
     s->widened = seam->widened;
     return err;
@@ -129,6 +143,63 @@ static enum hm_err fill(struct hm_seam *seam, const struct pair *p, struct hm_cu
     }
 }
 
+/* By how much the angles of a seam fall short of that, in all. */
+static double shortfall(const struct hm_seam *seam)
+{
+    double sum = 0;
+    for (size_t i = 0; i < seam->n; i++)
+        sum += fmax(0, poor_angle - seam->triangle[i].angle);
+    return sum;
+}
+
+/* Cut the elements that stay at the corners of poor triangles, into `wider`. */
+static enum hm_err widen_cut(struct hm_cut *wider, const struct hm_cut *cut,
+                             const struct hm_seam *seam, const struct hm_mesh *lower, int64_t *more,
+                             struct hm_diag *d)
+{
+    *wider = *cut;
+    wider->gone = hm_alloc(lower->nelems, sizeof *wider->gone);
+    bool *node = hm_alloc0(lower->nnodes, sizeof *node);
+    enum hm_err err = wider->gone && node ? HM_OK : hm_fail_memory(d);
+    if (!err)
+        memcpy(wider->gone, cut->gone, lower->nelems * sizeof *wider->gone);
+    for (size_t i = 0; !err && i < seam->n; i++)
+        for (int k = 0; k < 3 && seam->triangle[i].angle < poor_angle; k++) {
+            size_t low = (size_t)~seam->triangle[i].node[k];
+            if (seam->triangle[i].node[k] < 0 && low < lower->nnodes)
+                node[low] = true;
+        }
+    if (!err)
+        err = hm_cut_around(wider, lower, node, more, d);
+    free(node);
+    return err;
+}
+
+/* Where elements that stay leave no room for good triangles, cut more, as long as that helps. */
+static enum hm_err improve(struct hm_seam *seam, const struct pair *p, struct hm_cut *cut,
+                           struct hm_diag *d)
+{
+    enum { MOST_ROUNDS = 4 };
+    enum hm_err err = HM_OK;
+    bool better = true;
+    for (int round = 0; !err && better && round < MOST_ROUNDS && shortfall(seam) > 0; round++) {
+        struct hm_seam next = {0};
+        struct hm_cut wider;
+        int64_t more = 0;
+        struct hm_diag ignored = {0};
+        err = widen_cut(&wider, cut, seam, p->lower.mesh, &more, d);
+        better = !err && more > 0 && !fill(&next, p, &wider, &ignored) &&
+                 shortfall(&next) < shortfall(seam);
+        hm_cut_free(better ? cut : &wider);
+        hm_seam_free(better ? seam : &next);
+        if (better) {
+            *cut = wider;
+            *seam = next;
+        }
+    }
+    return err;
+}
+
 enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, double buffer,
                               const struct hm_terrain *terrain, int32_t *map, struct hm_stitched *s,
                               struct hm_diag *d)
@@ -144,6 +215,8 @@ enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, do
     bool whole = beside || !cut.meets;
     if (!err && !whole) {
         err = fill(&seam, &p, &cut, d);
+        if (!err)
+            err = improve(&seam, &p, &cut, d);
         s->overlapping = cut.overlapping;
         s->near = cut.near;
         s->loose = cut.loose;

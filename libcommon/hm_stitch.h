@@ -11,8 +11,8 @@
 struct hm_stitched {
     int64_t overlapping, near, loose; /* elements cut away: hm_cut */
     int64_t kept, filled;             /* elements of the mesh that stay; triangles in the gap */
-    int64_t reused;                   /* nodes of elements cut away that the gap uses */
-    int64_t widened;                  /* mouths wider than the mesh: hm_outline */
+    int64_t reused, fresh; /* nodes of elements cut away that the gap uses, and new ones */
+    int64_t widened;       /* mouths wider than the mesh: hm_outline */
     struct hm_joined joined;
 };
 

@@ -34,7 +34,7 @@ area() { # of the elements of a mesh
 }
 
 elements() { # one line an element, by coordinates, from its lowest corner on
-    awk '/^v/ { p[n++ + 0] = $2 "," $3 }
+    awk '/^#hm/ { n = 0 } /^v/ { p[n++ + 0] = $2 "," $3 }
         /^[tq]/ { k = /^t/ ? 3 : 4; low = 0
             for (i = 1; i < k; i++) if (p[$(2 + i)] < p[$(2 + low)]) low = i
             line = ""; for (i = 0; i < k; i++) line = line " " p[$(2 + (low + i) % k)]
@@ -43,6 +43,30 @@ elements() { # one line an element, by coordinates, from its lowest corner on
 
 nodes() { # x, y and z of all nodes
     awk '/^v/ { print $2, $3, $4 }' "$@" | sort -u
+}
+
+# new_inside RESULT MESH ...: nodes that no other mesh has lie inside the result, on the plane
+new_inside() {
+    awk 'NR == 1 { result = FILENAME } /^v/ && FILENAME == result { line[$2 " " $3] = $0 }
+        /^v/ && FILENAME != result { delete line[$2 " " $3] }
+        END { for (p in line) { split(line[p], v); off = v[4] - .01 * v[2] + .02 * v[3] - 5
+            if (v[5] % 2 || off ^ 2 > 1e-12) { print line[p]; bad = 1 } } exit bad }' "$@"
+}
+
+# angles RESULT MESH ...: triangles of the result that no other mesh has: how many, their least angle,
+# and how many are under 15 degrees
+angles() {
+    elements "$1" >of.result
+    shift
+    elements "$@" >of.others
+    comm -23 of.result of.others | tr , ' ' | awk '{ least = 180
+        for (i = 0; i < 3; i++) { a = 1 + 2 * i; b = 1 + 2 * ((i + 1) % 3); c = 1 + 2 * ((i + 2) % 3)
+            angle = atan2($(b + 1) - $(a + 1), $b - $a) - atan2($(c + 1) - $(a + 1), $c - $a)
+            angle = atan2(sin(angle), cos(angle)) * 180 / atan2(0, -1)
+            if (angle < 0) angle = -angle
+            if (angle < least) least = angle }
+        n++; if (n == 1 || least < most) most = least; if (least < 15) poor++ }
+        END { print n + 0, most + 0, poor + 0 }'
 }
 
 # An independent look: positive areas, edges used once each way, all nodes used, one piece (Euler:
@@ -61,12 +85,10 @@ sound() {
             exit bad }' "$1"
 }
 
-# joined NAME RESULT HIGHER LOWER [HOLES [PIECES]]: sound; no node but theirs; the higher mesh whole
+# joined NAME RESULT HIGHER LOWER [HOLES [PIECES]]: sound; new nodes only inside; the higher mesh whole
 joined() {
     ok "$1: sound" sound "$2" "${5:-0}" "${6:-1}"
-    nodes "$2" >got.nodes
-    nodes "$3" "$4" >their.nodes
-    ok "$1: no node is new" sh -c '! comm -23 got.nodes their.nodes | grep .'
+    ok "$1: new nodes only inside" new_inside "$2" "$3" "$4"
     elements "$2" >got.elements
     elements "$3" >higher.elements
     ok "$1: the higher mesh is whole" sh -c '! comm -13 got.elements higher.elements | grep .'
@@ -124,6 +146,25 @@ for angle in 30 50 75 100 125 150; do
     stitch -w 0 main.hm turned.hm >out.hm 2>/dev/null
     joined "turned by $angle degrees, without buffer" out.hm main.hm turned.hm
 done
+
+# --- the triangles of the seam, at many angles and places ---
+cp /dev/null seams
+for angle in 28 35 43 52 61 70 78 87 96 105 113 122 131 140 149; do
+    set -- $(awk -v a=$angle 'BEGIN { r = a * atan2(0, -1) / 180; x = 143 + a * 7 % 10; c = cos(r) / sin(r)
+        print x + 150 * c, 150, x - 10 * c, -10, 12 + a * 5 % 17, 4 + a % 5, 2 + a % 3 }')
+    channel seam "$@" >seam.hm
+    stitch main.hm seam.hm >out.hm 2>/dev/null
+    angles out.hm main.hm seam.hm >>seams
+    area out.hm | awk -v angle=$angle -v width="$5" '{ r = angle * atan2(0, -1) / 180
+        print $1 - 12000 - width * 130 / sin(r) }' >>areas
+done
+true_that "seams: $(awk '{ n += $1; poor += $3 } END { print poor " of " n " triangles under 15 degrees" }' seams)" \
+    "$(awk '{ n += $1; poor += $3 } END { print (n > 200) * 100 * poor / n }' seams) <= 2"
+true_that "no needles: $(awk 'NR == 1 || $2 < least { least = $2 } END { print least }' seams)" \
+    "$(awk 'NR == 1 || $2 < least { least = $2 } END { print least }' seams) > 6"
+
+true_that "the area of the union, but for the bends where the banks meet: $(sort -g areas | sed -n '1p;$p' | tr '\n' ' ')" \
+    "$(awk '$1 ^ 2 > 25 ^ 2 { bad = 1 } END { print bad + 0 }' areas) == 0"
 
 # --- more than two ---
 channel north 100 150 100 0 20 8 4 >north.hm

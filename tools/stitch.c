@@ -112,10 +112,10 @@ static void tell_stitched(struct hm_cli *cli, const char *name, const struct hm_
     else
         hm_cli_say(cli,
                    "%s: %lld elements cut away (%lld overlap, %lld too near, %lld loose), %lld "
-                   "kept; %lld triangles in the gap, with %lld of its nodes",
+                   "kept; %lld triangles in the gap, with %lld of its nodes and %lld new ones",
                    name, (long long)cut, (long long)s->overlapping, (long long)s->near,
                    (long long)s->loose, (long long)s->kept, (long long)s->filled,
-                   (long long)s->reused);
+                   (long long)s->reused, (long long)s->fresh);
     if (s->widened > 0)
         hm_cli_say(cli,
                    "%s: %lld mouths are narrower than two edges of the meshes before it, and "

@@ -86,11 +86,16 @@ static enum hm_err check_ring(struct hm_ring *r, struct hm_diag *d)
         return hm_fail_at(d, HM_EGEOM, xy[0], xy[1], "%s meets itself", ring_name(r->role));
     if (!err && r->role == HM_ROLE_REGION) {
         err = hm_attr_number(line->attrs, "region", 0, &region, d);
+        if (!err)
+            err = hm_attr_number(line->attrs, "max_area", 0, &r->zone.max_area, d);
         if (!err && !(region >= 0 && region < INT32_MAX && region == floor(region)))
             return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1],
                               "region=%g is not a material number (0, 1, 2 …)", region);
+        if (!err && !(r->zone.max_area >= 0 && isfinite(r->zone.max_area)))
+            return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1], "max_area=%g is not an area",
+                              r->zone.max_area);
         if (!err)
-            r->region = (int32_t)region;
+            r->zone.material = (int32_t)region;
     }
     return err;
 }
@@ -245,12 +250,36 @@ static enum hm_err add_hull(struct hm_build *b, struct hm_diag *d)
     return err;
 }
 
+/* Measurements that give heights only are no nodes, but for corners of the hull. */
+static enum hm_err drop_points(struct hm_build *b, struct hm_diag *d)
+{
+    size_t n = b->nsegments - b->first_hull, kept = b->first_point;
+    struct hm_node *corner = hm_alloc(n, sizeof *corner);
+    if (!corner)
+        return hm_fail_memory(d);
+    for (size_t k = 0; k < n; k++)
+        corner[k] = b->node[b->segment[b->first_hull + k].a];
+    for (size_t k = 0; k < n; k++) {
+        struct hm_tri_segment *s = &b->segment[b->first_hull + k],
+                              *last = &b->segment[b->first_hull + (k + n - 1) % n];
+        if (s->a < (int32_t)b->first_point)
+            continue;
+        b->node[kept] = corner[k];
+        s->a = last->b = (int32_t)kept++;
+    }
+    b->nnodes = b->end_points = kept;
+    free(corner);
+    return HM_OK;
+}
+
 static enum hm_err add_outlines(struct hm_build *b, struct hm_diag *d)
 {
     enum hm_err err = find_rings(b, d);
     size_t given = b->nrings;
     if (!err)
         err = add_hull(b, d);
+    if (!err && b->in->heights_only)
+        err = drop_points(b, d);
     b->first_ring = b->nsegments;
     for (size_t k = 0; !err && k < given; k++)
         err = add_ring_segments(b, &b->ring[k], d);
@@ -318,6 +347,25 @@ static enum hm_err triangulate(struct hm_build *b, struct hm_diag *d)
     return err;
 }
 
+/* Measurements that are no nodes: one at least must lie where the mesh is. */
+static enum hm_err check_measured(const struct hm_build *b, const struct hm_domain *dom,
+                                  struct hm_diag *d)
+{
+    int32_t hint = 0;
+    bool any = false;
+    for (size_t k = 0; k < b->in->npoints; k++) {
+        const struct hm_points *p = &b->in->points[k];
+        for (size_t i = 0; i < p->n; i++) {
+            const double *row = p->v + i * p->stride;
+            int32_t tri = hm_tri_locate(dom->tri, row[0], row[1], &hint);
+            any = any || isfinite(row[2]);
+            if (isfinite(row[2]) && tri != HM_TRI_NONE && hm_domain_is_inside(dom, tri))
+                return HM_OK;
+        }
+    }
+    return any ? hm_fail(d, HM_EGEOM, HM_BUILD_NO_MEASUREMENT) : HM_OK;
+}
+
 /* Holes of which no part is inside an outline. */
 static int64_t count_idle_holes(const struct hm_build *b)
 {
@@ -361,6 +409,8 @@ enum hm_err hm_assemble(const struct hm_assembly *in, struct hm_domain *dom,
         err = hm_build_judge(&b, d);
     if (!err)
         err = hm_build_domain(&b, dom, d);
+    if (!err && in->heights_only)
+        err = check_measured(&b, dom, d);
     counts->idle_holes = count_idle_holes(&b);
     hm_fence_free(b.fence);
     hm_tri_free(b.tri);

@@ -18,6 +18,7 @@ struct hm_assembly {
     size_t npoints, nlines, nmeshes;
     const struct hm_terrain *terrain; /* heights of measurements, and of what has none */
     double clearance;                 /* m: what is nearer to a regular mesh is cut off */
+    bool heights_only;                /* measurements are no nodes */
     bool line_z_terrain;              /* heights of breaklines from the terrain, not their own */
     int threads;
     void (*mended)(void *who, enum hm_tri_mend what, double x, double y); /* told, when set */

@@ -8,12 +8,12 @@
 
 /* --- what is inside --- */
 
-/* Region + 1 of the ground around (x, y), or 0 when it is not to be meshed. Of several region
- * polygons the last counts. */
+/* Zone + 1 of the ground around (x, y), or 0 when it is not to be meshed. Ring k makes zone k + 1;
+ * of several region polygons the last counts. */
 static int32_t ground_at(const struct hm_build *b, double x, double y)
 {
     bool odd = false;
-    int32_t region = 0;
+    size_t zone = 0;
     for (size_t k = 0; k < b->nrings; k++) {
         const struct hm_ring *r = &b->ring[k];
         if (hm_polygon_side(&r->line, x, y) <= 0)
@@ -23,9 +23,9 @@ static int32_t ground_at(const struct hm_build *b, double x, double y)
         if (r->role == HM_ROLE_BOUNDARY)
             odd = !odd;
         else
-            region = r->region;
+            zone = k + 1;
     }
-    return odd && !hm_fence_is_inside(b->fence, x, y) ? region + 1 : 0;
+    return odd && !hm_fence_is_inside(b->fence, x, y) ? (int32_t)zone + 1 : 0;
 }
 
 /* Each component that borders, regular meshes and regions leave is judged by the centre of its
@@ -103,7 +103,7 @@ static enum hm_err take_nodes(struct hm_build *b, struct hm_domain *dom, struct 
         return hm_fail(d, HM_EGEOM,
                        "outline, holes and regular meshes leave no ground to be meshed");
     if (used == 0 && b->end_points > b->first_point)
-        return hm_fail(d, HM_EGEOM, "no measurement lies inside the outline");
+        return hm_fail(d, HM_EGEOM, HM_BUILD_NO_MEASUREMENT);
     return HM_OK;
 }
 
@@ -198,6 +198,17 @@ static enum hm_err give_heights(const struct hm_build *b, struct hm_domain *dom,
     return HM_OK;
 }
 
+static enum hm_err take_zones(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
+{
+    dom->nzones = b->nrings + 1;
+    dom->zone = hm_alloc0(dom->nzones, sizeof *dom->zone);
+    if (!dom->zone)
+        return hm_fail_memory(d);
+    for (size_t k = 0; k < b->nrings; k++)
+        dom->zone[k + 1] = b->ring[k].zone;
+    return HM_OK;
+}
+
 enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
 {
     bool stale = false;
@@ -208,6 +219,8 @@ enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm
         err = give_heights(b, dom, d);
     if (!err)
         err = find_median(b, dom, d);
+    if (!err)
+        err = take_zones(b, dom, d);
     if (err)
         return err;
     dom->tri = b->tri;

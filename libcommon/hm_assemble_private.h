@@ -9,11 +9,13 @@
 #include "hm_fence.h"
 #include "hm_role.h"
 
+#define HM_BUILD_NO_MEASUREMENT "no measurement lies inside the outline"
+
 /* A closed line with a role. */
 struct hm_ring {
     struct hm_line line; /* not ours, but for the hull */
     enum hm_role role;
-    int32_t region;
+    struct hm_zone zone;
 };
 
 /* What goes into the first triangulation. */

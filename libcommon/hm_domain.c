@@ -1,5 +1,6 @@
 /* hm_domain: see hm_domain.h. */
 #include "hm_domain.h"
+#include "hm_pred.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@ void hm_domain_free(struct hm_domain *dom)
     hm_domain_changed(dom);
     free(dom->node);
     free(dom->edge);
+    free(dom->zone);
     *dom = (struct hm_domain){0};
 }
 
@@ -145,6 +147,16 @@ enum hm_err hm_domain_remove(struct hm_domain *dom, const bool *gone, struct hm_
     return HM_OK;
 }
 
+double hm_domain_area(const struct hm_domain *dom, int32_t tri)
+{
+    return !hm_domain_is_inside(dom, tri)
+               ? 0
+               : hm_area2(hm_tri_xy(dom->tri, hm_tri_org(dom->tri, 3 * tri)),
+                          hm_tri_xy(dom->tri, hm_tri_dest(dom->tri, 3 * tri)),
+                          hm_tri_xy(dom->tri, hm_tri_apex(dom->tri, 3 * tri))) /
+                     2;
+}
+
 /* --- the finished mesh --- */
 
 /* What the edges make of their nodes. */
@@ -208,7 +220,7 @@ static enum hm_err add_elements(const struct hm_domain *dom, const int32_t *numb
             node[k] = number[node[k]];
         int first = node[0] < node[1] ? (node[0] < node[2] ? 0 : 2) : (node[1] < node[2] ? 1 : 2);
         struct hm_elem e = {{node[first], node[(first + 1) % 3], node[(first + 2) % 3], -1},
-                            hm_tri_region(dom->tri, tri) - 1};
+                            dom->zone[hm_tri_region(dom->tri, tri) - 1].material};
         enum hm_err err = hm_mesh_add_elem(mesh, e, d);
         if (err)
             return err;

@@ -29,7 +29,13 @@ enum { HM_NODE_NEW = 256 };
 
 enum { HM_OUTSIDE = -1 };
 
-/* An edge that the mesh must have, with the regions left and right of a → b (HM_OUTSIDE: none). */
+/* An area with a material of its own, and perhaps a size. */
+struct hm_zone {
+    int32_t material;
+    double max_area; /* of its elements, m²; 0: as everywhere */
+};
+
+/* An edge that the mesh must have, with the zones left and right of a → b (HM_OUTSIDE: none). */
 struct hm_domain_edge {
     int32_t a, b;
     int32_t marks;
@@ -41,8 +47,10 @@ struct hm_domain {
     size_t nnodes, node_cap;
     struct hm_domain_edge *edge; /* they meet in nodes only */
     size_t nedges, edge_cap;
+    struct hm_zone *zone; /* the first is all that no other covers */
+    size_t nzones;
 
-    /* While triangulated; regions are 0 outside the domain and 1 + material number inside. */
+    /* While triangulated; regions are 0 outside the domain and 1 + the zone inside. */
     struct hm_tri *tri;
     int32_t *node_of;   /* by vertex number of tri; -1 outside the domain */
     int32_t *vertex_of; /* by node */
@@ -59,6 +67,14 @@ enum hm_err hm_domain_triangulate(struct hm_domain *dom, int threads, struct hm_
 
 /* Make vertex_of from node_of, for who made tri himself. */
 enum hm_err hm_domain_number_vertices(struct hm_domain *dom, struct hm_diag *d);
+
+/* Make nodes of the vertices from `first` on, which were added to tri, and edges of the pieces into
+ * which they split fixed ones. On breaklines they have the line's height, elsewhere they are
+ * HM_NODE_NEW and their height is NaN. */
+enum hm_err hm_domain_adopt(struct hm_domain *dom, int32_t first, struct hm_diag *d);
+
+/* The area of a triangle in m²; 0 outside the domain. */
+double hm_domain_area(const struct hm_domain *dom, int32_t tri);
 
 /* Drop tri and what goes with it: nodes or edges are about to change, or did. */
 void hm_domain_changed(struct hm_domain *dom);

@@ -2,7 +2,6 @@
 #include "hm_paper.h"
 
 #include "hm_coarsen.h"
-#include "hm_pred.h"
 #include "hm_smooth.h"
 #include "hm_subdivide.h"
 
@@ -122,13 +121,8 @@ static enum hm_err smooth(struct work *w, struct hm_diag *d)
 static enum hm_err check_size(const struct work *w, struct hm_diag *d)
 {
     double area = 0, most = w->o->bounds.most;
-    const struct hm_domain *dom = w->dom;
-    for (int32_t tri = 0; tri < hm_tri_triangles(dom->tri); tri++)
-        if (hm_domain_is_inside(dom, tri))
-            area += hm_area2(hm_tri_xy(dom->tri, hm_tri_org(dom->tri, 3 * tri)),
-                             hm_tri_xy(dom->tri, hm_tri_dest(dom->tri, 3 * tri)),
-                             hm_tri_xy(dom->tri, hm_tri_apex(dom->tri, 3 * tri))) /
-                    2;
+    for (int32_t tri = 0; tri < hm_tri_triangles(w->dom->tri); tri++)
+        area += hm_domain_area(w->dom, tri);
     double nodes = area / (most * most) / 0.43;
     if (nodes > (double)(INT32_MAX / 6))
         return hm_fail(d, HM_EARG, "a maximum edge of %g m makes about %.2g nodes on %.3g m2", most,

@@ -7,6 +7,7 @@
 #include "hm_cli.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
+#include "hm_ruppert.h"
 #include "hm_trim.h"
 
 #include <errno.h>
@@ -16,29 +17,35 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum method { DELAUNAY, PAPER };
+enum method { DELAUNAY, PAPER, QUALITY };
 enum elevation { Z_TERRAIN, Z_MEAN };
 enum line_z { LINE_GIVEN, LINE_TERRAIN };
+
+enum { MOST_ANGLE = 34 }; /* degrees; refinement need not end beyond */
 
 /* What the regular meshes keep clear at least (m): lidar's own resolution. */
 #define LEAST_CLEARANCE 0.001
 
 static struct {
     int method, elevation, line_z;
-    double min_edge, max_edge, clearance;
-    bool min_given, max_given, clearance_given;
+    double min_edge, max_edge, min_angle, max_area, clearance;
+    bool min_given, max_given, angle_given, area_given, clearance_given;
     int smooth;
     const char *steps;
-} cmd = {.method = PAPER, .smooth = 5};
+} cmd = {.method = PAPER, .min_angle = 20, .smooth = 5};
 
 static const struct hm_option options[] = {
     {'m', "method", "METHOD", HM_OPT_CHOICE, &cmd.method,
-     .help = "nodes: all points, or edges between -l and -L (default paper)",
-     .choices = "delaunay|paper"},
+     .help = "all points; edges from -l to -L; angles over -q (default paper)",
+     .choices = "delaunay|paper|quality"},
     {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, .help = "minimum edge length, m",
      .given = &cmd.min_given},
     {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
      .help = "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
+    {'q', "min-angle", "DEGREES", HM_OPT_NUMBER, &cmd.min_angle,
+     .help = "minimum angle, at most 34 degrees (default 20)", .given = &cmd.angle_given},
+    {'a', "max-area", "M2", HM_OPT_POSITIVE, &cmd.max_area,
+     .help = "maximum area of an element, m2 (default: any)", .given = &cmd.area_given},
     {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth,
      .help = "passes of Laplace smoothing (default 5)"},
     {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
@@ -62,22 +69,49 @@ static const struct hm_program program = {
     .needs = HM_ANY,
     .without = "p"}; /* a mesh is written exactly */
 
+static void check_lengths(struct hm_cli *cli)
+{
+    if (!cmd.min_given)
+        hm_cli_die(cli, "-m paper needs a minimum edge length (-l)");
+    if (!cmd.max_given)
+        cmd.max_edge = 2.5 * cmd.min_edge;
+    if (cmd.max_edge <= cmd.min_edge)
+        hm_cli_die(cli, "the maximum edge (-L %g) must be more than the minimum (-l %g)",
+                   cmd.max_edge, cmd.min_edge);
+    if (cmd.max_edge < 2 * cmd.min_edge)
+        hm_cli_say(cli, "the maximum edge is under twice the minimum: not all edges can keep "
+                        "to both");
+}
+
+static void check_angle(struct hm_cli *cli)
+{
+    if (!(cmd.min_angle >= 0 && cmd.min_angle <= MOST_ANGLE))
+        hm_cli_die(cli, "a minimum angle of %g degrees: 0 to %d can be reached", cmd.min_angle,
+                   MOST_ANGLE);
+}
+
+/* An option that another method understands. */
+static void refuse(struct hm_cli *cli, bool given, const char *option, const char *method)
+{
+    if (given)
+        hm_cli_die(cli, "%s means nothing with -m %s", option, method);
+}
+
 static void check_command(struct hm_cli *cli)
 {
-    if (cmd.method == PAPER) {
-        if (!cmd.min_given)
-            hm_cli_die(cli, "-m paper needs a minimum edge length (-l)");
-        if (!cmd.max_given)
-            cmd.max_edge = 2.5 * cmd.min_edge;
-        if (cmd.max_edge <= cmd.min_edge)
-            hm_cli_die(cli, "the maximum edge (-L %g) must be more than the minimum (-l %g)",
-                       cmd.max_edge, cmd.min_edge);
-        if (cmd.max_edge < 2 * cmd.min_edge)
-            hm_cli_say(cli, "the maximum edge is under twice the minimum: not all edges can keep "
-                            "to both");
-    }
+    static const char *const name[] = {"delaunay", "paper", "quality"};
+    if (cmd.method == PAPER)
+        check_lengths(cli);
+    refuse(cli, cmd.method != PAPER && cmd.steps, "--steps", name[cmd.method]);
+    refuse(cli, cmd.method != PAPER && cmd.elevation == Z_MEAN, "-z mean", name[cmd.method]);
+    refuse(cli, cmd.method != QUALITY && cmd.angle_given, "-q", name[cmd.method]);
+    refuse(cli, cmd.method != QUALITY && cmd.area_given, "-a", name[cmd.method]);
+    refuse(cli, cmd.method == QUALITY && cmd.min_given, "-l", name[cmd.method]);
+    refuse(cli, cmd.method != PAPER && cmd.max_given, "-L", name[cmd.method]);
+    check_angle(cli);
+    /* half the minimum edge, or a quarter of the side of the largest element with equal sides */
     if (!cmd.clearance_given)
-        cmd.clearance = cmd.min_edge / 2;
+        cmd.clearance = fmax(cmd.min_edge / 2, sqrt(cmd.max_area * 4 / sqrt(3)) / 4);
     cmd.clearance = fmax(cmd.clearance, LEAST_CLEARANCE);
 }
 
@@ -112,7 +146,7 @@ static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
                   "%lld without length",
                   (long long)c->crossings, (long long)c->on_lines, (long long)c->overlaps,
                   (long long)c->zero_length);
-    if (c->near_points > 0)
+    if (c->near_points > 0 && cmd.method != QUALITY)
         hm_cli_say(cli, "%lld measurements within %g m of a regular mesh's boundary left out",
                    (long long)c->near_points, cmd.clearance);
     if (c->outside_points > 0)
@@ -218,6 +252,7 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                                          .nmeshes = in->nmeshes,
                                          .terrain = terrain,
                                          .clearance = cmd.clearance,
+                                         .heights_only = cmd.method == QUALITY,
                                          .line_z_terrain = cmd.line_z == LINE_TERRAIN,
                                          .threads = hm_cli_threads(cli),
                                          .mended = hm_cli_verbose(cli) ? say_mend : NULL,
@@ -258,6 +293,28 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
     say_left(cli, &left);
 }
 
+static void say_refined(struct hm_cli *cli, const struct hm_tri_refined *r)
+{
+    if (r->small > 0)
+        hm_cli_say(cli,
+                   "%lld elements under %g degrees are left, at small angles of the lines or at "
+                   "regular meshes; the smallest, %.3g degrees, at %.10g %.10g",
+                   (long long)r->small, cmd.min_angle, r->smallest, r->x, r->y);
+    if (r->large > 0)
+        hm_cli_say(cli, "%lld elements over their maximum area are left, at regular meshes",
+                   (long long)r->large);
+}
+
+static void bring_to_angles(struct hm_cli *cli, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_tri_refined left;
+    const struct hm_ruppert_options o = {
+        .min_angle = cmd.min_angle, .max_area = cmd.max_area, .threads = hm_cli_threads(cli)};
+    hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left, &d), &d);
+    say_refined(cli, &left);
+}
+
 /* New and moved nodes get the terrain's height. */
 static void lift(struct hm_cli *cli, const struct hm_terrain *terrain, struct hm_domain *dom)
 {
@@ -288,6 +345,8 @@ int main(int argc, char **argv)
     assemble(cli, &in, terrain, &dom);
     if (cmd.method == PAPER)
         bring_to_lengths(cli, &mesh.header, &dom);
+    if (cmd.method == QUALITY)
+        bring_to_angles(cli, &dom);
     hm_cli_stage(cli, "heights");
     if (cmd.elevation == Z_TERRAIN)
         lift(cli, terrain, &dom);

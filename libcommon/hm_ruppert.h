@@ -1,0 +1,22 @@
+/* hm_ruppert: an irregular mesh with a minimum angle and a maximum area. Layer 6.
+ *
+ * Quality refinement of the domain (hm_tri_refine): breaklines, outlines and the borders of regions
+ * may be split, boundaries of regular meshes never. The domain stays triangulated.
+ */
+#ifndef HM_RUPPERT_H
+#define HM_RUPPERT_H
+
+#include "hm_domain.h"
+#include "hm_tri_refine.h"
+
+struct hm_ruppert_options {
+    double min_angle; /* degrees; 0: any */
+    double max_area;  /* m², where a zone has none of its own; 0: any */
+    int threads;
+};
+
+/* HM_EARG when a bound is out of range, or the mesh would have more nodes than can be. */
+enum hm_err hm_ruppert_reach(struct hm_domain *dom, const struct hm_ruppert_options *o,
+                             struct hm_tri_refined *left, struct hm_diag *d);
+
+#endif

@@ -274,9 +274,13 @@ enum hm_err hm_face_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
 {
     *cut = (struct hm_face_cut){0};
     const double *place = NULL;
-    for (size_t k = 0; k < nfaces; k++)
-        if (faces[k].surface == surface->number && !place)
-            place = faces[k].loop.xyz;
+    bool loops = false;
+    for (size_t k = 0; k < nfaces; k++) {
+        if (faces[k].surface != surface->number)
+            continue;
+        place = place ? place : faces[k].loop.xyz;
+        loops = loops || !faces[k].hole;
+    }
     if (!place)
         return HM_OK;
     enum hm_err err = drop_outside(mesh, surface->number, faces, nfaces, &cut->dropped, d);
@@ -287,7 +291,8 @@ enum hm_err hm_face_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
     }
     if (!err && mesh->nelems == 0)
         err = hm_fail_at(d, HM_EGEOM, place[0], place[1],
-                         "no element of surface '%s' lies wholly inside its face loop",
+                         loops ? "no element of surface '%s' lies wholly inside its face loop"
+                               : "a hole covers the whole surface '%s'",
                          surface->name);
     return err;
 }

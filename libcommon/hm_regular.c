@@ -315,7 +315,7 @@ static bool column_known(const struct plan *p, size_t i)
 
 /* Heights are filled between what is known, never carried on beyond it: the first and the last
  * cross section need terrain. */
-static enum hm_err check_cover(const struct plan *p, struct hm_diag *d)
+static enum hm_err check_cover(const struct plan *p, double gap, struct hm_diag *d)
 {
     for (int end = 0; end < 2; end++) {
         size_t i = end ? p->n - 1 : 0, missing = 0;
@@ -323,11 +323,14 @@ static enum hm_err check_cover(const struct plan *p, struct hm_diag *d)
             missing++;
         const double *b = p->z + 3 * i;
         if (missing > 0)
-            return hm_fail_at(d, HM_EGEOM, b[0], b[1],
-                              missing == p->n ? "no terrain under surface '%s'"
-                              : end           ? "no terrain under the outflow end of surface '%s'"
-                                              : "no terrain under the inflow end of surface '%s'",
-                              p->rough->name);
+            return hm_fail_at(
+                d, HM_EGEOM, b[0], b[1],
+                "no terrain under %ssurface '%s'; between measurements more than %g m "
+                "apart it is not known (-g)",
+                missing == p->n ? ""
+                : end           ? "the outflow end of "
+                                : "the inflow end of ",
+                p->rough->name, gap);
     }
     return HM_OK;
 }
@@ -351,7 +354,7 @@ static enum hm_err drag_heights(struct plan *p, const struct hm_terrain *terrain
 {
     struct sampling q = {terrain, p, NULL, (p->n - 1) * SAMPLES + 1, (p->m - 1) * SAMPLES + 1};
     hm_thread_for(how->threads, (p->n * p->m + CHUNK - 1) / CHUNK, sample_net, &q);
-    enum hm_err err = check_cover(p, d);
+    enum hm_err err = check_cover(p, how->gap, d);
     if (err)
         return err;
     start_heights(p);

@@ -23,6 +23,7 @@ struct hm_regular_how {
     int degree;     /* 1, 2 or 3 */
     int iterations; /* by which z is dragged to the terrain: the smoothing knob */
     bool quads;
+    double gap; /* of the terrain, metres: for the message that there is none */
     int threads;
 };
 

@@ -81,17 +81,47 @@ enum hm_err hm_rough_parse_elements(const char *text, struct hm_rough_size *size
     return HM_OK;
 }
 
-/* The attributes of one of its lines that override the sizes of a surface. */
+/* along= and snap=: a number that is in order. */
+static enum hm_err read_length(const char *attrs, const char *key, bool zero, double *value,
+                               struct hm_diag *d)
+{
+    enum hm_err err = hm_attr_number(attrs, key, *value, value, d);
+    if (!err && !(isfinite(*value) && (*value > 0 || (zero && *value == 0))))
+        err = hm_fail(d, HM_EFORMAT, "%s=%g is no distance in metres", key, *value);
+    return err;
+}
+
+static bool same_across(const struct hm_rough_size *a, const struct hm_rough_size *b)
+{
+    return a->across == b->across && a->nfractions == b->nfractions &&
+           !memcmp(a->fraction, b->fraction, a->nfractions * sizeof *a->fraction);
+}
+
+/* The attributes of one of its lines that override the sizes of a surface. Two lines must not say
+ * different things. */
 static enum hm_err read_sizes(struct hm_rough *r, const char *attrs, struct hm_diag *d)
 {
+    static const char *const key[] = {"along", "snap", "across", "elements"};
     char text[512];
-    enum hm_err err = hm_attr_number(attrs, "along", r->size.along, &r->size.along, d);
-    if (!err)
-        err = hm_attr_number(attrs, "snap", r->size.snap, &r->size.snap, d);
-    if (!err && hm_attr_get(attrs, "across", text, sizeof text))
-        err = hm_rough_parse_across(text, &r->size, d);
-    if (!err && hm_attr_get(attrs, "elements", text, sizeof text))
-        err = hm_rough_parse_elements(text, &r->size, d);
+    struct hm_rough_size now = r->size;
+    enum hm_err err = HM_OK;
+    for (int k = 0; !err && k < 4; k++) {
+        if (!hm_attr_get(attrs, key[k], text, sizeof text))
+            continue;
+        err = k == 0   ? read_length(attrs, key[k], false, &now.along, d)
+              : k == 1 ? read_length(attrs, key[k], true, &now.snap, d)
+              : k == 2 ? hm_rough_parse_across(text, &now, d)
+                       : hm_rough_parse_elements(text, &now, d);
+        bool same = now.along == r->size.along && now.snap == r->size.snap &&
+                    same_across(&now, &r->size) && now.elem_along == r->size.elem_along &&
+                    now.elem_across == r->size.elem_across;
+        if (!err && (r->said & 1U << k) && !same)
+            err = hm_fail(d, HM_EFORMAT,
+                          "%s=%s contradicts another line of surface '%s'; one of them is enough",
+                          key[k], text, r->name);
+        r->said |= 1U << k;
+        r->size = now;
+    }
     return err;
 }
 
@@ -213,15 +243,36 @@ static void hang_section(struct hm_line *s, const double *a, const double *b)
     }
 }
 
-static enum hm_err set_section(struct hm_line *s, const double *a, const double *b,
-                               struct hm_diag *d)
+/* Can a drawn section be meant for the ends a and b of the banks? */
+static enum hm_err check_section(const struct hm_line *s, const char *side, const char *name,
+                                 const double *a, const double *b, struct hm_diag *d)
 {
+    const double *first = first_of(s), *last = last_of(s), width = apart(a, b);
+    double far = fmax(apart(first, a), apart(last, b));
+    double along = (last[0] - first[0]) * (b[0] - a[0]) + (last[1] - first[1]) * (b[1] - a[1]);
+    if (along < 0.5 * apart(first, last) * width)
+        return hm_fail_at(d, HM_EGEOM, first[0], first[1],
+                          "the %s line of surface '%s' does not run from bank to bank", side, name);
+    if (far > width)
+        return hm_fail_at(d, HM_EGEOM, first[0], first[1],
+                          "the %s line of surface '%s' lies %.4g m from the ends of its banks, "
+                          "which are %.4g m apart",
+                          side, name, far, width);
+    return HM_OK;
+}
+
+static enum hm_err set_section(struct hm_rough *r, enum hm_rough_side side, const double *a,
+                               const double *b, struct hm_diag *d)
+{
+    struct hm_line *s = &r->side[side];
     if (s->xyz) {
         if (apart(first_of(s), a) + apart(last_of(s), b) >
             apart(first_of(s), b) + apart(last_of(s), a))
             reverse(s);
-        hang_section(s, a, b);
-        return HM_OK;
+        enum hm_err err = check_section(s, side_name[side], r->name, a, b, d);
+        if (!err)
+            hang_section(s, a, b);
+        return err;
     }
     s->xyz = hm_alloc(2, 3 * sizeof *s->xyz);
     if (!s->xyz)
@@ -363,9 +414,9 @@ static enum hm_err turn(struct hm_rough *r, struct hm_diag *d)
         reverse(left);
         reverse(right);
     }
-    err = set_section(&r->side[HM_INFLOW], first_of(right), first_of(left), d);
+    err = set_section(r, HM_INFLOW, first_of(right), first_of(left), d);
     if (!err)
-        err = set_section(&r->side[HM_OUTFLOW], last_of(right), last_of(left), d);
+        err = set_section(r, HM_OUTFLOW, last_of(right), last_of(left), d);
     return err ? err : check_outline(r, &area2, d);
 }
 

@@ -34,6 +34,7 @@ struct hm_rough {
     int32_t number;                /* 1, 2, … in order of appearance */
     struct hm_line side[HM_SIDES]; /* owned; turned as in the figure, the corners joined */
     struct hm_rough_size size;
+    unsigned said; /* bits of the attributes along, snap, across, elements: some line has it */
 };
 
 /* "10/8", "10" (the same across) or "10/0,.1,.3,.7,.9,1": distances of control points. */
@@ -47,7 +48,8 @@ enum hm_err hm_rough_parse_elements(const char *text, struct hm_rough_size *size
 /* All surfaces in n sets of lines, in order of appearance; `defaults` holds where no attribute
  * along= across= snap= elements= says otherwise. *list is malloc'd, free with hm_rough_free.
  * HM_EGEOM with the place when a bank is missing, given twice, closed, a point, or when the outline
- * of a surface crosses itself; HM_EFORMAT for attributes that make no sense. */
+ * of a surface crosses itself, or a section drawn is not one between the banks' ends; HM_EFORMAT
+ * for attributes that make no sense, or that two lines of a surface contradict each other in. */
 enum hm_err hm_rough_collect(const struct hm_lines *sets, size_t n,
                              const struct hm_rough_size *defaults, struct hm_rough **list,
                              size_t *count, struct hm_diag *d);

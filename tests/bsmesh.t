@@ -77,6 +77,8 @@ true_that "no node on a breakline" "$(most m0.hm 'int($4/2)%2') == 0"
 ok "snap=0 leaves the banks" bsmesh -o m1.hm -n 0 -c 10/8 -e 10/4 lines.txt plane.xyz
 true_that "the same places" "$(grep '^v' m0.hm | cksum | cut -d' ' -f1) == $(grep '^v' m1.hm | cksum | cut -d' ' -f1)"
 
+grep -q 'main: banks as drawn.*snap=0' tap.err
+report $? "which is said"
 ok "quadrilaterals" bsmesh -o q.hm -Q -c 10/8 -e 10/4 lines.txt plane.xyz
 true_that "all of them, of the same nodes" \
     "$(grep -c '^q' q.hm) == 360 && $(grep -c '^t' q.hm) == 0 && $(grep -c '^v' q.hm) == 403"
@@ -308,6 +310,52 @@ refuse "an attribute that is no number" "along" "$right
 > surface=main side=left along=wide
 0 40 0
 300 40 0"
+refuse "a distance that is none" 'along=-1 is no distance.* at 0 40' "$right
+> surface=main side=left along=-1
+0 40 0
+300 40 0"
+refuse "a snap distance that is none" 'snap=-2 is no distance' "$right
+> surface=main side=left snap=-2
+0 40 0
+300 40 0"
+refuse "attributes that contradict each other" "snap=5 contradicts another line of surface 'main'.* at 0 0" \
+    "> surface=main side=left snap=3
+0 40 0
+300 40 0
+> surface=main side=right snap=5
+0 0 0
+300 0 0"
+lines "> surface=main side=left along=20 across=0,.5,1
+0 40 0
+300 40 0
+> surface=main side=right along=20 across=0,.5,1
+0 0 0
+300 0 0" >agree.txt
+ok "the same said twice is none" bsmesh -e 10/4 agree.txt plane.xyz
+refuse "an inflow along the banks" "inflow line of surface 'main' does not run from bank to bank.* at " "$left
+$right
+> surface=main side=inflow
+0 20 0
+40 22 0"
+refuse "an inflow far from them" "outflow line of surface 'main' lies 60 m from the ends" "$left
+$right
+> surface=main side=outflow
+360 0 0
+360 40 0"
+refuse "a hole that covers all" "a hole covers the whole surface 'main' at" "$left
+$right
+> face=main hole=1 closed=1
+-10 -10 0
+310 -10 0
+310 50 0
+-10 50 0"
+refuse "control points closer than measurements by far" "no terrain .* more than 2.5 m apart .*-g" "$left
+$right" -c .5/.5
+refuse "a loop of two points" 'face=main has only 2 points' "$left
+$right
+> face=main hole=1 closed=1
+0 0 0
+9 9 0"
 refuse "fractions that fall" "do not rise from 0 to 1" "$left
 $right" -c 10/0,.5,.3,1
 refuse "a length that is none" "no length of elements" "$left

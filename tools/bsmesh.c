@@ -114,17 +114,19 @@ static void build_terrain(struct hm_cli *cli, struct job *job)
             gap = fmax(gap, 5 * job->rough[k].size.along);
     if (job->in.npoints + job->in.ngrids == 0)
         hm_cli_die(cli, "no terrain: measurements (points) or a grid are needed for the heights");
+    job->how.gap = gap;
     hm_cli_check(cli, hm_terrain_build(&job->terrain, &job->in, gap, job->how.threads, &counts, &d),
                  &d);
     hm_cli_mended_points(cli, counts.without_z, counts.duplicates);
 }
 
-static void tell(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
-                 const struct hm_regular *s, const struct hm_face_cut *cut,
-                 const struct hm_mesh *mesh)
+static void tell_moves(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+                       const struct hm_regular *s)
 {
-    size_t n = s->surface.n, m = s->surface.m;
-    if (hm_breaklines_count(job->breaklines) == 0)
+    size_t n = s->surface.n;
+    if (rough->size.snap == 0)
+        hm_cli_say(cli, "%s: banks as drawn, not moved to breaklines (snap=0)", rough->name);
+    else if (hm_breaklines_count(job->breaklines) == 0)
         hm_cli_say(cli, "%s: no breaklines to move the banks to", rough->name);
     else if (s->moved > 0)
         hm_cli_say(cli,
@@ -133,7 +135,16 @@ static void tell(struct hm_cli *cli, const struct job *job, const struct hm_roug
                    rough->name, s->moved, 2 * n, 2 * n - s->moved, s->largest, s->largest_at[0],
                    s->largest_at[1]);
     else
-        hm_cli_say(cli, "%s: no control point of %zu found a breakline", rough->name, 2 * n);
+        hm_cli_say(cli, "%s: no control point of %zu found a breakline within %g m", rough->name,
+                   2 * n, rough->size.snap);
+}
+
+static void tell(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+                 const struct hm_regular *s, const struct hm_face_cut *cut,
+                 const struct hm_mesh *mesh)
+{
+    size_t n = s->surface.n, m = s->surface.m;
+    tell_moves(cli, job, rough, s);
     hm_cli_mended(cli, (int64_t)s->unknown,
                   "%s: %zu of %zu control points without terrain take z from those around them, "
                   "the first at %.10g %.10g",

@@ -45,9 +45,10 @@ static enum hm_err next_line(struct hm_reader *r, const char **s, const char **e
 /* --- names --- */
 
 /* The columns that are x, y and z by their names, in any case. */
-static const char *const known[3][6] = {{"x", "easting", "east", "lon", "longitude", NULL},
-                                        {"y", "northing", "north", "lat", "latitude", NULL},
-                                        {"z", "elevation", "height", "elev", NULL}};
+static const char *const known[3][8] = {
+    {"x", "easting", "east", "lon", "longitude", "rechtswert", "ostwert", NULL},
+    {"y", "northing", "north", "lat", "latitude", "hochwert", "nordwert", NULL},
+    {"z", "elevation", "height", "elev", "altitude", "höhe", "hoehe", NULL}};
 
 static bool is_coordinate(const char *name, int k)
 {
@@ -89,19 +90,50 @@ static enum hm_err read_names(struct hm_header *h, const char *s, const char *en
     return err;
 }
 
-/* Fields x y z from the columns that have these names (or else the first three), then the others.
- */
-static enum hm_err map_columns(struct table *t, struct hm_header *h, char **names,
-                               struct hm_diag *d)
+static enum hm_err fail_names(struct hm_reader *r, const char *what, char **names, size_t n,
+                              struct hm_diag *d)
 {
-    size_t place[3] = {0, 1, 2};
-    for (int k = 0; k < 3 && names; k++)
-        for (place[k] = 0; place[k] < t->columns && !is_coordinate(names[place[k]], k);)
+    char list[HM_DIAG_TEXT / 2] = "";
+    for (size_t i = 0, at = 0; i < n && at + strlen(names[i]) + 2 < sizeof list; i++)
+        at += (size_t)sprintf(list + at, "%s%s", i > 0 ? " " : "", names[i]);
+    return hm_input_fail(&r->in, HM_EFORMAT, d, "no column is named as %s: %s", what, list);
+}
+
+/* Which columns are x, y and z: by their names. Where x and y have no name that is known, the first
+ * three in this order; of three columns z is the one that is left. More columns are not guessed
+ * at: what is silently no height spoils all that follows. */
+static enum hm_err place_columns(struct hm_reader *r, size_t columns, char **names, size_t place[3],
+                                 struct hm_diag *d)
+{
+    for (size_t k = 0; k < 3; k++)
+        place[k] = k;
+    if (!names)
+        return HM_OK;
+    for (int k = 0; k < 3; k++)
+        for (place[k] = 0; place[k] < columns && !is_coordinate(names[place[k]], k);)
             place[k]++;
-    if (place[0] >= t->columns || place[1] >= t->columns) /* no x, y among the names */
+    bool x = place[0] < columns, y = place[1] < columns, z = place[2] < columns;
+    if (x != y && columns > 3)
+        return fail_names(r, x ? "y is (y, northing ...)" : "x is (x, easting ...)", names, columns,
+                          d);
+    if (!x || !y)
         for (size_t k = 0; k < 3; k++)
             place[k] = k;
-    enum hm_err err = HM_OK;
+    else if (!z && columns == 3)
+        place[2] = 3 - place[0] - place[1];
+    else if (!z && columns > 3)
+        return fail_names(r, "a height is (z, height, elevation ...)", names, columns, d);
+    return HM_OK;
+}
+
+/* Fields x y z from their columns, then the others. */
+static enum hm_err map_columns(struct hm_reader *r, struct table *t, struct hm_header *h,
+                               char **names, struct hm_diag *d)
+{
+    size_t place[3];
+    enum hm_err err = place_columns(r, t->columns, names, place, d);
+    if (err)
+        return err;
     if (names && !strncasecmp(names[place[0]], "lon", 3))
         err = hm_header_add(h, "crs", "longitude latitude", d);
     for (size_t i = 0; i < t->columns && !err; i++) {
@@ -173,7 +205,7 @@ static enum hm_err start(struct hm_reader *r, struct table *t, struct hm_header 
     t->v = hm_alloc(t->columns, sizeof *t->v);
     if (!t->field || !t->v)
         return hm_fail_memory(d);
-    return map_columns(t, h, names->nfields > 0 ? names->fields : NULL, d);
+    return map_columns(r, t, h, names->nfields > 0 ? names->fields : NULL, d);
 }
 
 static enum hm_err begin(struct hm_reader *r, struct hm_header *h, struct hm_diag *d)

@@ -225,7 +225,7 @@ static void test_table(void)
         {"names", "x,y,z,Class\n1,2,3,9\n", "x y z class\n#data\n1 2 3 9\n#end 1\n"},
         {"names in another order", "ID Height Northing Easting\n7 3 2 1\n",
          "x y z id\n#data\n1 2 3 7\n#end 1\n"},
-        {"names without z", "x y class\n1 2 9\n", "x y z class\n#data\n1 2 nan 9\n#end 1\n"},
+        {"names without z", "y hoogte x\n2 9 1\n", "x y z\n#data\n1 2 9\n#end 1\n"},
         {"no line end", "1 2 3", "x y z\n#data\n1 2 3\n#end 1\n"},
         {"a stream behind", "1 2 3\n" HEAD "4 5 6\n#end\n",
          "x y z\n#data\n1 2 3\n#end 1\n#hm 1 points text\n#fields x y z\n#data\n4 5 6\n#end 1\n"},

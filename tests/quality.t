@@ -265,4 +265,7 @@ must_fail "residuals need a file" 2 "needs a file" quality -r - square.hm seven.
 must_fail "a sample of 200 %" 2 "sample.*200" quality -s 1,200 square.hm seven.xyz
 must_fail "one threshold" 2 "thresholds" quality -t 0.1 square.hm seven.xyz
 must_fail "falling thresholds" 2 "thresholds" quality -t 0.3,0.1 square.hm seven.xyz
+printf '#hm 1 mesh text\n#data\nv 0 0 1 0 0\nv 1 0 1 0 0\n#end\n' >bare.hm
+must_fail "a mesh without elements" 2 'bare.hm: the mesh has no elements' quality bare.hm seven.xyz
+
 done_testing

@@ -237,6 +237,8 @@ static void take_mesh(struct run *run, struct hm_header *h)
     if (run->locate)
         hm_cli_die(run->cli, "%s: a second mesh; quality judges one at a time", name);
     enum hm_err err = hm_mesh_read(&run->mesh, hm_cli_reader(run->cli), h, &d);
+    if (!err && run->mesh.nelems == 0)
+        hm_cli_die(run->cli, "%s: the mesh has no elements", name);
     if (!err)
         err = hm_locate_build(&run->locate, &run->mesh, &d);
     hm_cli_check(run->cli, err, &d);

@@ -57,9 +57,24 @@ int hm_cli_spool(struct hm_cli *cli)
     return fd;
 }
 
+/* What the spool stands for, in messages: "standard input, bank.hm". */
+static char *operand_names(struct hm_cli *cli)
+{
+    char *names = NULL;
+    size_t size = 0;
+    FILE *f = open_memstream(&names, &size);
+    for (size_t k = 0; f && k < cli->noperands; k++) {
+        const char *name = cli->operands[k];
+        fprintf(f, "%s%s", k > 0 ? ", " : "", strcmp(name, "-") ? name : "standard input");
+    }
+    if (!f || fclose(f))
+        hm_cli_die(cli, "out of memory");
+    return names;
+}
+
 static void keep_inputs(struct hm_cli *cli)
 {
-    static const char name[] = "the inputs (--keep)";
+    char *name = operand_names(cli);
     struct hm_diag d = {0};
     struct hm_writer *to[2] = {hm_cli_writer(cli), NULL};
     int spool = hm_cli_spool(cli), copy = dup(spool);
@@ -76,6 +91,7 @@ static void keep_inputs(struct hm_cli *cli)
     if (lseek(spool, 0, SEEK_SET))
         hm_cli_die(cli, "%s: %s", name, strerror(errno));
     hm_cli_check(cli, hm_reader_open_fd(&cli->reader, spool, name, &d), &d);
+    free(name);
 }
 
 /* --- input --- */

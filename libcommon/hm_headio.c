@@ -196,8 +196,9 @@ enum hm_err hm_headio_check_lattice(const struct hm_lattice *l, size_t bands, st
         return hm_fail(d, HM_EFORMAT, "a grid needs #size with at least one node each way");
     if (bands > HM_MAX_SIDE || l->nx > HM_MAX_SIDE / (int64_t)bands || l->ny > HM_MAX_SIDE)
         return hm_fail(d, HM_EFORMAT,
-                       "a grid of %lld x %lld nodes is too large: at most %d each way",
-                       (long long)l->nx, (long long)l->ny, HM_MAX_SIDE);
+                       "a grid of %lld x %lld nodes with %zu bands is too large: at most %d rows, "
+                       "and columns times bands",
+                       (long long)l->nx, (long long)l->ny, bands, HM_MAX_SIDE);
     double x1 = l->x0 + (double)(l->nx - 1) * l->dx, y1 = l->y0 + (double)(l->ny - 1) * l->dy;
     if (!isfinite(l->x0) || !isfinite(l->y0) || !isfinite(x1) || !isfinite(y1))
         return hm_fail(d, HM_EFORMAT, "#origin and #step of a grid must be finite");

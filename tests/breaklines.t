@@ -120,7 +120,7 @@ must_fail "no such slope file" 2 'nowhere' breaklines --slope nowhere bank.hm
 # bad input
 : >empty
 must_fail "empty" 2 'empty' breaklines empty
-must_fail "no slope" 2 'no band slope' breaklines bank.hm
+must_fail "no slope" 2 'no grid has a band slope' breaklines bank.hm
 head -n 400 slope.hm >cut.hm
 must_fail "truncated" 2 'cut.hm' breaklines cut.hm
 sed '$d' slope.hm >cut.hm
@@ -133,4 +133,26 @@ done
 if [ -e /dev/full ]; then
     must_fail "a full disk" 2 'space|No space' sh -c 'breaklines -s 8 -l 0 rough.hm >/dev/full'
 fi
+# --- what a stranger would write ---
+must_fail "a negative length" 2 'min-length: must not be less than 0' breaklines -l -1 slope.hm
+must_fail "a limit given twice" 2 'the limit 5.0 is given twice' breaklines -s 5,5.0,5 slope.hm
+must_fail "a limit of 90 degrees in percent" 2 '-s: a limit is' breaklines -s 1e300% slope.hm
+
+# --- a pipe with --keep brings the same ground twice ---
+slope -K bank.hm | breaklines -s 9 >kept.hm 2>err
+ok "of a grid and its slope the second is taken" grep -q 'left out 1 grid without a band slope' err
+grep '^[^#]' kept.hm >a
+grep '^[^#]' lines.hm >b
+same "... with the same lines" a b
+slope -K bank.hm | breaklines -m curvature -s 0.01 >kept.hm 2>err
+ok "of two with heights the first is taken" grep -q 'left out a second grid of the same nodes' err
+slope -K bank.hm | slope >again.hm 2>err
+ok "slope takes the grid without slope" grep -q 'left out 1 grid that had a band slope already' err
+grep '^[^#]' again.hm >a
+grep '^[^#]' slope.hm >b
+same "... and makes the same of it" a b
+must_fail "slope of a slope" 2 'no grid without a band slope' slope slope.hm
+ok "with --keep messages name the operand" sh -c '
+    slope -K - <lines.hm 2>&1 >/dev/null | grep -q "^slope: standard input: lines not used here"'
+
 done_testing

@@ -102,8 +102,20 @@ sed 's/ slope$//; s/^\([^#]*\) [^ ]*$/\1/' grid.hm >height.hm
 cat points.hm height.hm lines.hm | TMPDIR=$WORK/spool slope --keep >got 2>err
 slope height.hm | cat points.hm height.hm lines.hm - >want
 same '--keep: the inputs, then the product' want got
-ok 'what the tool does not use is named' grep -qx 'slope: the inputs (--keep): lines not used here' err
+ok 'what the tool does not use is named' grep -qx 'slope: standard input: lines not used here' err
 must_fail '--keep without room' 2 'nowhere/hm-spool-' env TMPDIR=nowhere slope --keep height.hm
+
+# --- bare tables: which column is what ---
+# table NAMES LINE: the first point of a table, by hmconv
+table() { printf '%s\n%s\n' "$1" "$2" | hmconv | grep '^[^#]'; }
+ok 'three columns, two names known: the third is z' test "$(table Easting,Northing,Hoogte 1,2,3)" = '1 2 3'
+ok '... wherever it stands' test "$(table 'Kote y x' '3 2 1')" = '1 2 3'
+ok 'German names' test "$(table 'Punkt Hochwert Rechtswert Höhe' '7 2 1 3')" = '1 2 3 7'
+ok 'three names of which none is known' test "$(table 'a b c' '1 2 3')" = '1 2 3'
+printf 'x y Hoogte code\n1 2 3 4\n' >unnamed.txt
+must_fail 'four columns and no height' 2 'unnamed.txt:1: no column is named as a height .*: x y hoogte code' hmconv unnamed.txt
+printf 'id x Hochw z\n1 2 3 4\n' >unnamed.txt
+must_fail 'four columns and no y' 2 'no column is named as y .*: id x hochw z' hmconv unnamed.txt
 
 # --- progress: on a terminal, after two seconds, and taken away again ---
 if command -v script >/dev/null; then

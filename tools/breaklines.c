@@ -16,6 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* 89.99994 degrees: beyond it a percentage is a slip of the pen. */
+#define STEEPEST_PERCENT 1e8
+
 /* Modes beyond those of hm_contour. */
 enum { CURVATURE = HM_CONTOUR_NODE + 1 };
 
@@ -23,10 +26,10 @@ static struct {
     const char *limits; /* NULL: by the mode */
     int mode, saddle;
     const char *slope_file;
-    double least; /* metres; < 0: by the spacing of the grid */
+    double least; /* metres */
     double simplify, resample, smooth;
-    bool resampled, simplified, smoothed;
-} cmd = {.least = -1};
+    bool least_given, resampled, simplified, smoothed;
+} cmd;
 
 static const struct hm_option options[] = {
     {'s', "limit", "LIMIT[,...]", HM_OPT_TEXT, &cmd.limits,
@@ -38,7 +41,7 @@ static const struct hm_option options[] = {
      .help = "vertices: the crossings of a cell, or their mean (default split)",
      .choices = "split|mean"},
     {'l', "min-length", "M", HM_OPT_NUMBER, &cmd.least,
-     .help = "drop shorter lines, m (default 10 grid spacings)"},
+     .help = "drop shorter lines, m (default 10 grid spacings)", .given = &cmd.least_given},
     {'w', "smooth", "M", HM_OPT_POSITIVE, &cmd.smooth,
      .help = "smooth; no vertex moves further than this, m", .given = &cmd.smoothed},
     {'e', "simplify", "M", HM_OPT_POSITIVE, &cmd.simplify,
@@ -83,6 +86,9 @@ struct tool {
     double least;         /* metres */
     struct hm_lines held; /* lines to be simplified, when all are known */
     int64_t found, found_vertices, dropped, written, written_vertices;
+    struct hm_lattice *traced; /* the lattices of the grids so far */
+    size_t ntraced, traced_cap;
+    size_t plain; /* grids without slope that were left out */
 };
 
 /* A grid to read rows of: z or slope, picked from its bands. */
@@ -109,7 +115,7 @@ static void parse_limit(struct tool *t, const char *s, const char *end)
     const char *rest = hm_num_parse(s, end, &l->value);
     l->percent = rest && rest < end && *rest == '%';
     bool by_slope = cmd.mode != CURVATURE;
-    double most = l->percent || !by_slope ? INFINITY : 90;
+    double most = !by_slope ? INFINITY : l->percent ? STEEPEST_PERCENT : 90;
     bool good = rest && rest + l->percent == end && l->value > 0 && l->value < most &&
                 (size_t)(end - s) < sizeof l->text && (by_slope || !l->percent);
     if (!good && !by_slope)
@@ -118,9 +124,12 @@ static void parse_limit(struct tool *t, const char *s, const char *end)
     if (!good)
         hm_cli_die(t->cli,
                    "-s: a limit is more than 0 and less than 90 degrees, or a percentage "
-                   "as 10%%; got '%.*s'",
+                   "as 10%% (less than 1e8%%); got '%.*s'",
                    (int)(end - s), s);
     memcpy(l->text, s, (size_t)(end - s));
+    for (const struct limit *other = t->limit; other < l; other++)
+        if (other->value == l->value && other->percent == l->percent)
+            hm_cli_die(t->cli, "-s: the limit %s is given twice", l->text);
 }
 
 static void parse_limits(struct tool *t)
@@ -128,6 +137,8 @@ static void parse_limits(struct tool *t)
     if (!cmd.limits)
         cmd.limits = cmd.mode == CURVATURE ? "0.06" : "5";
     t->limit = need(t->cli, strlen(cmd.limits) + 1, sizeof *t->limit);
+    if (cmd.least < 0)
+        hm_cli_die(t->cli, "--min-length: must not be less than 0, not %g", cmd.least);
     const char *s = cmd.limits, *end;
     do {
         end = s + strcspn(s, ",");
@@ -189,10 +200,6 @@ static struct source open_slope(struct hm_cli *cli, const struct hm_header *heig
     struct hm_reader *r = hm_cli_reader(cli);
     if (!cmd.slope_file) {
         int column = hm_header_field(heights, "slope");
-        if (column < 2)
-            hm_cli_die(cli,
-                       "%s: the grid has no band slope: pipe it through slope, or give --slope",
-                       hm_reader_name(r));
         *unit = unit_of(heights, column);
         return make_source(cli, r, heights, column);
     }
@@ -355,7 +362,7 @@ static void do_grid(struct tool *t, const struct hm_header *h)
     if (column < 2)
         hm_cli_die(t->cli, "%s: the grid has no band z", hm_reader_name(hm_cli_reader(t->cli)));
     struct source heights = make_source(t->cli, hm_cli_reader(t->cli), h, column);
-    t->least = cmd.least >= 0 ? cmd.least : 10 * fmax(fabs(h->lattice.dx), fabs(h->lattice.dy));
+    t->least = cmd.least_given ? cmd.least : 10 * fmax(fabs(h->lattice.dx), fabs(h->lattice.dy));
     if (cmd.mode == CURVATURE) {
         open_limits(t, h, HM_SLOPE_DEGREE);
         trace_curvature(t, &heights, h->lattice.ny);
@@ -364,6 +371,35 @@ static void do_grid(struct tool *t, const struct hm_header *h)
     }
     close_limits(t);
     free(heights.row);
+}
+
+/* Is this the grid to trace? A pipe with --keep brings the same ground twice: as bsgrid made it and
+ * as slope completed it. */
+static bool is_wanted(struct tool *t, const struct hm_header *h)
+{
+    const char *name = hm_reader_name(hm_cli_reader(t->cli));
+    if (cmd.mode != CURVATURE && !cmd.slope_file && hm_header_field(h, "slope") < 2) {
+        t->plain++;
+        return false;
+    }
+    for (size_t k = 0; k < t->ntraced; k++)
+        if (same_lattice(&t->traced[k], &h->lattice)) {
+            hm_cli_say(t->cli, "%s: left out a second grid of the same nodes", name);
+            return false;
+        }
+    if (!hm_grow(&t->traced, &t->traced_cap, t->ntraced + 1, sizeof *t->traced))
+        hm_cli_die(t->cli, "out of memory");
+    t->traced[t->ntraced++] = h->lattice;
+    return true;
+}
+
+static void say_plain(const struct tool *t, bool any)
+{
+    if (t->plain > 0 && !any)
+        hm_cli_die(t->cli, "no grid has a band slope: pipe it through slope, or give --slope");
+    if (t->plain > 0)
+        hm_cli_say(t->cli, "left out %zu %s without a band slope", t->plain,
+                   t->plain > 1 ? "grids" : "grid");
 }
 
 static void begin_output(struct hm_cli *cli)
@@ -415,15 +451,19 @@ int main(int argc, char **argv)
     struct hm_header h;
     bool any = false;
     while (hm_cli_next(t.cli, &h)) {
-        if (!any)
-            begin_output(t.cli);
-        any = true;
-        do_grid(&t, &h);
+        if (is_wanted(&t, &h)) {
+            if (!any)
+                begin_output(t.cli);
+            any = true;
+            do_grid(&t, &h);
+        }
         hm_header_free(&h);
     }
+    say_plain(&t, any);
     if (!any)
         hm_cli_die(t.cli, "no grid in the input");
     finish_output(&t);
     free(t.limit);
+    free(t.traced);
     return hm_cli_finish(t.cli);
 }

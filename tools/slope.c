@@ -225,13 +225,22 @@ int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct hm_header h;
-    bool any = false;
+    size_t done = 0, sloped = 0;
     while (hm_cli_next(cli, &h)) {
-        do_grid(cli, &h);
+        if (hm_header_field(&h, "slope") >= 0) {
+            sloped++;
+        } else {
+            do_grid(cli, &h);
+            done++;
+        }
         hm_header_free(&h);
-        any = true;
     }
-    if (!any)
+    if (sloped > 0 && done == 0)
+        hm_cli_die(cli, "no grid without a band slope: it is there already");
+    if (sloped > 0)
+        hm_cli_say(cli, "left out %zu %s that had a band slope already", sloped,
+                   sloped > 1 ? "grids" : "grid");
+    if (done == 0)
         hm_cli_die(cli, "no grid in the input");
     return hm_cli_finish(cli);
 }

@@ -2,6 +2,7 @@
 #include "hm_cli_private.h"
 
 #include "hm_num.h"
+#include "hm_output.h"
 #include "hm_thread.h"
 
 #include <errno.h>
@@ -435,6 +436,15 @@ static void check_precision(const struct parser *s, const struct hm_cli *cli)
         misuse(s->program, "--precision would round what --keep copies");
 }
 
+/* A computation of minutes must not end at a name that was wrong from the start. */
+static void check_output(struct hm_cli *cli)
+{
+    struct hm_diag d = {0};
+    if (!*cli->output)
+        misuse(cli->program, "--output: needs a file name");
+    hm_cli_check(cli, hm_output_check(cli->output, &d), &d);
+}
+
 struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **argv)
 {
     signal(SIGPIPE, SIG_DFL); /* a closed pipe ends a tool in silence */
@@ -472,6 +482,7 @@ struct hm_cli *hm_cli_start(const struct hm_program *program, int argc, char **a
     if (version)
         print_version(program);
     check_precision(&s, cli);
+    check_output(cli);
     if (!cli->threads)
         cli->threads = hm_thread_count();
     cli->history = make_history(&s);

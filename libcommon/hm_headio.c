@@ -135,6 +135,10 @@ static enum hm_err read_fields(struct hm_input *in, struct hm_header *h, struct 
                              h->kind == HM_LINES  ? "are x y z"
                              : h->kind == HM_GRID ? "begin with x y, then at least one band"
                                                   : "begin with x y z");
+    for (size_t i = 1; i < h->nfields; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(h->fields[i], h->fields[k]))
+                return hm_input_fail(in, HM_EFORMAT, d, "two fields are called %s", h->fields[i]);
     return HM_OK;
 }
 

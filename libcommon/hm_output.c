@@ -158,6 +158,29 @@ enum hm_err hm_output_open_fd(struct hm_output *out, int fd, const char *name, s
     return err;
 }
 
+enum hm_err hm_output_check(const char *path, struct hm_diag *d)
+{
+    struct stat st;
+    const char *why = NULL;
+    if (!strcmp(path, "-"))
+        return HM_OK;
+    if (!stat(path, &st)) {
+        why = S_ISDIR(st.st_mode) ? strerror(EISDIR) : access(path, W_OK) ? strerror(errno) : NULL;
+    } else if (errno != ENOENT) {
+        why = strerror(errno);
+    } else {
+        char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+        if (!folder)
+            return hm_fail_memory(d);
+        if (slash)
+            slash[1] = '\0';
+        if (access(slash ? folder : ".", W_OK | X_OK))
+            why = strerror(errno);
+        free(folder);
+    }
+    return why ? hm_fail_line(d, HM_EIO, path, 0, "cannot write: %s", why) : HM_OK;
+}
+
 static enum hm_err put(struct hm_output *out, const char *bytes, size_t n, struct hm_diag *d)
 {
     while (n > 0) {

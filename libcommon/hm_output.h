@@ -20,6 +20,8 @@ struct hm_output {
 
 /* path "-" is standard output. On failure there is nothing to close. */
 enum hm_err hm_output_open(struct hm_output *out, const char *path, struct hm_diag *d);
+/* Could it be opened? Touches nothing; before a long computation. */
+enum hm_err hm_output_check(const char *path, struct hm_diag *d);
 /* On a descriptor, which is taken over, also on failure; name is for diagnostics. */
 enum hm_err hm_output_open_fd(struct hm_output *out, int fd, const char *name, struct hm_diag *d);
 /* Flush, close, rename and free, whatever happens; HM_EIO when the bytes did not arrive. Standard

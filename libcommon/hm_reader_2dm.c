@@ -19,6 +19,7 @@ struct mesh2dm {
     size_t id_cap;
     int32_t *string_id; /* the nodes of all strings */
     size_t string_ids, string_id_cap;
+    int64_t string_line; /* where a node of a string was last read */
     struct string *string;
     size_t strings, string_cap;
     size_t *order; /* nodes by id, when ids are not 1, 2, 3 … */
@@ -132,6 +133,7 @@ static enum hm_err read_string(struct hm_reader *r, const char *s, const char *e
         int32_t id;
         if (!cut_id(&s, end, &id) || id == 0)
             return bad_line(r, s, end, d);
+        m->string_line = r->in.line;
         if (!hm_grow(&m->string_id, &m->string_id_cap, m->string_ids + 1, sizeof *m->string_id))
             return hm_fail_memory(d);
         m->string_id[m->string_ids++] = id < 0 ? -id : id;
@@ -241,6 +243,16 @@ static int64_t find_node(const struct mesh2dm *m, int32_t id)
     return low < m->mesh.nnodes && m->id[m->order[low]] == id ? (int64_t)m->order[low] : -1;
 }
 
+/* The last string must have come to its end, which only a negative number is. */
+static enum hm_err check_strings(struct hm_reader *r, struct hm_diag *d)
+{
+    const struct mesh2dm *m = r->state;
+    size_t end = m->strings > 0 ? m->string[m->strings - 1].end : 0;
+    return m->string_ids == end ? HM_OK
+                                : hm_fail_line(d, HM_EFORMAT, r->in.name, m->string_line,
+                                               "a node string without an end (a negative number)");
+}
+
 static enum hm_err number_elems(struct hm_reader *r, struct hm_diag *d)
 {
     struct mesh2dm *m = r->state;
@@ -307,7 +319,9 @@ static enum hm_err begin(struct hm_reader *r, struct hm_header *h, struct hm_dia
     }
     if (err && err != HM_END)
         return err;
-    err = sort_ids(r, d);
+    err = check_strings(r, d);
+    if (!err)
+        err = sort_ids(r, d);
     if (!err)
         err = number_elems(r, d);
     return err ? err : number_strings(r, h, d);

@@ -119,4 +119,10 @@ for lines in cross doubled; do
     ok "the mesh is valid" quality --check valid mended.hm survey.xyz
     must_fail "--strict says so" 1 "mended" trimesh --strict -l 6 -L 20 survey.xyz $lines.txt
 done
+# --- messages that say what is meant ---
+printf 'MESH2D\nND 1 0 0 0\nND 2 1 0 0\nND 3 0 1 0\nE3T 1 1 2 3 1\nNS 1 2\n' >open.2dm
+must_fail "a node string without an end" 2 'open.2dm:6: a node string without an end' hmconv open.2dm
+printf '#hm 1 points text\n#fields x y z z\n#data\n1 2 3 4\n#end\n' >twice.hm
+must_fail "two fields of one name" 2 'twice.hm:2: two fields are called z' hmconv twice.hm
+
 done_testing

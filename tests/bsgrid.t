@@ -243,4 +243,14 @@ if need_data danube_deggendorf/points.xyz; then
     true_that "heights within those measured" "$(column 3 danube.hm | awk 'NR == 1 { a = b = $1 }
         { if ($1 < a) a = $1; if ($1 > b) b = $1 } END { print (a > 303.5 && b < 318.7 && NR > 200000) }')"
 fi
+# --- grids without anything, and heights beyond reckoning, are said ---
+printf '0 0 1\n10 0 1\n0 10 1\n' >three.xyz
+bsgrid -g 0.1 three.xyz 2>err >none.hm
+ok "a grid without a height" grep -q 'warning: no node has a height.*-g' err
+printf '0 0 1e308\n10 0 -1e308\n0 10 1e308\n10 10 1\n3 3 -1e308\n' >huge.xyz
+bsgrid -g 99 huge.xyz 2>err >huge.hm
+ok "heights that overflow" grep -Eq 'warning: the heights around [0-9]+ nodes are too large' err
+bsgrid -g 99 three.xyz 2>err >some.hm
+ok "else no warning" sh -c '! grep warning err'
+
 done_testing

@@ -73,4 +73,12 @@ hmconv -p 1 two.asc >out
 ok "rounding is history" grep -qx '#prog hmconv 0.1 -p 1' out
 hmconv two.asc | hmconv -b | hmconv >out
 ok "other encodings are not" sh -c '! grep "#prog" out'
+# An output that cannot be written is found before anything is read.
+must_fail "an output without a name" 2 'output: needs a file name' slope -o '' two.asc
+must_fail "a folder that is not there" 2 'no/such/out: cannot write: No such file' slope -o no/such/out missing.asc
+must_fail "a folder for a file" 2 '[.]: cannot write: Is a directory' slope -o . missing.asc
+must_fail "residuals nowhere" 2 'no/residuals: cannot write' quality -r no/residuals missing.hm
+must_fail "points left nowhere" 2 'no/clean: cannot write' bsgrid --clean no/clean missing.xyz
+must_fail "steps nowhere" 2 'no/steps: No such file' trimesh -l 1 --steps no/steps missing.xyz
+
 done_testing

@@ -1,6 +1,7 @@
 /* bsgrid: points to an analysis grid on a B-spline surface. */
 #include "bsgrid/bsgrid.h"
 #include "hm_num.h"
+#include "hm_output.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -103,6 +104,8 @@ static struct survey start_survey(struct hm_cli *cli)
         hm_cli_die(cli, "-k: the degree is 1, 2 or 3");
     if (cmd.over < 1 || cmd.over > 100)
         hm_cli_die(cli, "-O: from 1 to 100 nodes for one");
+    if (cmd.clean)
+        hm_cli_check(cli, hm_output_check(cmd.clean, &d), &d);
     cmd.blunders_given = cmd.blunders_given || cmd.clean;
     if (!cmd.gap_given)
         cmd.gap = 10 * cmd.spacing;

@@ -8,6 +8,7 @@
 #include "hm_cli.h"
 #include "hm_locate.h"
 #include "hm_num.h"
+#include "hm_output.h"
 #include "hm_quality.h"
 #include "hm_thread.h"
 
@@ -91,6 +92,8 @@ static void prepare(struct run *run)
         hm_cli_die(run->cli, "--thresholds: '%s' is not two ascending numbers", cmd.thresholds);
     if (cmd.residuals && !strcmp(cmd.residuals, "-"))
         hm_cli_die(run->cli, "--residuals: needs a file, standard output has the report");
+    if (cmd.residuals)
+        hm_cli_check(run->cli, hm_output_check(cmd.residuals, &d), &d);
     if (cmd.criteria)
         hm_cli_check(run->cli, hm_criteria_parse(cmd.criteria, &run->criteria, &run->ncriteria, &d),
                      &d);

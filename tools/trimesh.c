@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum method { DELAUNAY, PAPER, QUALITY };
 enum elevation { Z_TERRAIN, Z_MEAN };
@@ -97,6 +98,14 @@ static void refuse(struct hm_cli *cli, bool given, const char *option, const cha
         hm_cli_die(cli, "%s means nothing with -m %s", option, method);
 }
 
+static void make_steps_folder(struct hm_cli *cli)
+{
+    if (strlen(cmd.steps) > 4000)
+        hm_cli_die(cli, "%s: name too long", cmd.steps);
+    if ((mkdir(cmd.steps, 0777) && errno != EEXIST) || access(cmd.steps, W_OK | X_OK))
+        hm_cli_die(cli, "%s: %s", cmd.steps, strerror(errno));
+}
+
 static void check_command(struct hm_cli *cli)
 {
     static const char *const name[] = {"delaunay", "paper", "quality"};
@@ -113,6 +122,8 @@ static void check_command(struct hm_cli *cli)
     if (!cmd.clearance_given)
         cmd.clearance = fmax(cmd.min_edge / 2, sqrt(cmd.max_area * 4 / sqrt(3)) / 4);
     cmd.clearance = fmax(cmd.clearance, LEAST_CLEARANCE);
+    if (cmd.steps)
+        make_steps_folder(cli);
 }
 
 /* --- terrain --- */
@@ -280,10 +291,6 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
         .smooth = cmd.smooth,
         .threads = hm_cli_threads(cli)};
     if (cmd.steps) {
-        if (strlen(cmd.steps) > 4000)
-            hm_cli_die(cli, "%s: name too long", cmd.steps);
-        if (mkdir(cmd.steps, 0777) && errno != EEXIST)
-            hm_cli_die(cli, "%s: %s", cmd.steps, strerror(errno));
         o.watch = write_step;
         o.arg = &steps;
         hm_cli_check(cli, write_step(&steps, dom, "start", &d), &d);

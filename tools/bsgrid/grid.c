@@ -117,13 +117,21 @@ struct rows {
     double *z, *zu, *zv;
 };
 
+/* What became of the nodes. */
+struct nodes {
+    size_t empty, overflowed;
+};
+
 /* The bands of one node, of which `at` is the place in the rows. */
 static double *put_node(const struct survey *s, const struct hm_bsurf *b, const struct extras *e,
-                        const struct rows *r, const struct place *p, size_t at, double *to)
+                        const struct rows *r, const struct place *p, size_t at, double *to,
+                        struct nodes *nodes)
 {
     size_t node = (size_t)(p->j - s->fine.j0) * s->fine.nx + (size_t)(p->i - s->fine.i0);
     bool known = is_known(b, p) && (!e->in || e->in[node]);
-    *to++ = known ? r->z[at] : NAN;
+    *to++ = known && isfinite(r->z[at]) ? r->z[at] : NAN;
+    nodes->empty += !known || !isfinite(r->z[at]);
+    nodes->overflowed += known && !isfinite(r->z[at]);
     if (cmd.derivatives) {
         bool tells = known && tells_slope(b, p);
         *to++ = tells ? r->zu[at] / cmd.spacing : NAN;
@@ -137,11 +145,23 @@ static double *put_node(const struct survey *s, const struct hm_bsurf *b, const 
     return to;
 }
 
+static void say_odd_nodes(struct hm_cli *cli, const struct survey *s, const struct nodes *n)
+{
+    if (n->overflowed > 0)
+        hm_cli_say(cli, "warning: the heights around %zu nodes are too large to reckon with",
+                   n->overflowed);
+    else if (n->empty == s->fine.nx * s->fine.ny)
+        hm_cli_say(cli, "warning: no node has a height: see the gap limit (-g), %s%s",
+                   cmd.region ? "the window (-R), " : "",
+                   cmd.mask ? "the mask" : "the spacing (-d)");
+}
+
 static void write_rows(struct hm_cli *cli, const struct survey *s, const struct hm_bsurf *b,
                        const struct extras *e, struct hm_bsample *sample)
 {
     struct hm_diag d = {0};
-    size_t bands = 1 + 2 * (size_t)cmd.derivatives + cmd.count + cmd.density, empty = 0;
+    size_t bands = 1 + 2 * (size_t)cmd.derivatives + cmd.count + cmd.density;
+    struct nodes nodes = {0};
     size_t width = (s->nodes.nx - 1) * (size_t)cmd.over + 1;
     double *z = need(cli, 3 * width, sizeof *z), *row = need(cli, s->fine.nx * bands, sizeof *row);
     struct rows r = {z, cmd.derivatives ? z + width : NULL, cmd.derivatives ? z + 2 * width : NULL};
@@ -155,16 +175,15 @@ static void write_rows(struct hm_cli *cli, const struct survey *s, const struct 
             p.a = coarse(p.i) - s->nodes.i0;
             p.on_column = p.i % cmd.over == 0;
             size_t at = (size_t)(p.i - s->nodes.i0 * cmd.over);
-            double *node = to;
-            to = put_node(s, b, e, &r, &p, at, to);
-            empty += isnan(*node) != 0;
+            to = put_node(s, b, e, &r, &p, at, to, &nodes);
         }
         hm_cli_check(cli, hm_writer_row(hm_cli_writer(cli), row, &d), &d);
         hm_cli_progress(cli, "writing", (double)(p.j - s->fine.j0 + 1) / (double)s->fine.ny);
     }
     hm_cli_check(cli, hm_writer_end(hm_cli_writer(cli), &d), &d);
     hm_cli_say(cli, "%lld points, %zu x %zu nodes, %zu of them empty (nan)", (long long)s->used,
-               s->fine.nx, s->fine.ny, empty);
+               s->fine.nx, s->fine.ny, nodes.empty);
+    say_odd_nodes(cli, s, &nodes);
     free(z);
     free(row);
 }

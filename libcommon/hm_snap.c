@@ -1,5 +1,6 @@
 #include "hm_snap.h"
 
+#include "hm_attr.h"
 #include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_role.h"
@@ -18,14 +19,16 @@ static const double COST_STRETCH = 0.5; /* neighbours a control distance nearer 
 static const double COST_JUMP = 0.1;    /* from one breakline to the next in its prolongation */
 static const double COST_OFFSET = 6.0;  /* and the reach beside its prolongation */
 static const double COST_LEAVE = 0.3;   /* between moved and unmoved */
+static const double COST_SWITCH = 6;    /* between toe and crest, moved or not in between */
 static const double LEAST_STEP = 0.2;   /* of a control distance that each point must go forward */
 static const double MOST_DETOUR = 1.5;  /* length along a breakline over the straight way */
 
-enum { MOST_TARGETS = 12, GLIDES = 8 };
+enum { MOST_TARGETS = 12, STAYS = 3, GLIDES = 8 };
 
 struct hm_breaklines {
     const struct hm_line **line;
     double **behind; /* of line k: its length before each vertex, and in all (pieces + 1 numbers) */
+    bool *sided;     /* steep on its left, as lines with limit= are */
     size_t n;
     struct hm_segindex *index;
 };
@@ -69,6 +72,7 @@ enum hm_err hm_breaklines_build(struct hm_breaklines **out, const struct hm_line
 {
     *out = NULL;
     size_t most = 0, pieces = 0;
+    char limit[2];
     for (size_t s = 0; s < n; s++)
         most += sets[s].n;
     struct hm_breaklines *b = hm_alloc0(1, sizeof *b);
@@ -76,7 +80,8 @@ enum hm_err hm_breaklines_build(struct hm_breaklines **out, const struct hm_line
         return hm_fail_memory(d);
     b->line = hm_alloc(most, sizeof *b->line);
     b->behind = hm_alloc(most, sizeof *b->behind);
-    enum hm_err err = b->line && b->behind ? HM_OK : hm_fail_memory(d);
+    b->sided = hm_alloc(most, sizeof *b->sided);
+    enum hm_err err = b->line && b->behind && b->sided ? HM_OK : hm_fail_memory(d);
     for (size_t s = 0; !err && s < n; s++)
         for (size_t k = 0; !err && k < sets[s].n; k++) {
             const struct hm_line *line = &sets[s].line[k];
@@ -84,6 +89,7 @@ enum hm_err hm_breaklines_build(struct hm_breaklines **out, const struct hm_line
                 continue;
             err = measure(line, &b->behind[b->n], d);
             b->line[b->n] = line;
+            b->sided[b->n] = hm_attr_get(line->attrs, "limit", limit, sizeof limit);
             b->n += !err;
             pieces += hm_polyline_pieces(line);
         }
@@ -103,6 +109,7 @@ void hm_breaklines_free(struct hm_breaklines *b)
     for (size_t k = 0; k < b->n; k++)
         free(b->behind[k]);
     free(b->behind);
+    free(b->sided);
     free(b->line);
     hm_segindex_free(b->index);
     free(b);
@@ -148,7 +155,9 @@ struct target {
     int32_t line; /* -1: none, the point stays */
     double s;     /* distance along the line */
     double xy[2];
-    double dir[2]; /* of the line there, over about a control distance; sign of no meaning */
+    double dir[2]; /* of the line there, over about a control distance */
+    int steep;     /* 1: on the left of the bank, -1: on the right, 0: not known; of a point that
+                      stays what was before it, so that toe and crest are told apart beyond it */
     double far;    /* from the control point */
     double cost;   /* of this target, and of the cheapest way up to here */
     double total;
@@ -158,7 +167,7 @@ struct target {
 struct fit {
     const struct hm_breaklines *b;
     const struct hm_bank *bank;
-    struct target *target; /* MOST_TARGETS + 1 a point; the last of each point is `none` */
+    struct target *target; /* MOST_TARGETS + STAYS a point; the last ones of each are `none` */
     int32_t *ntargets;
 };
 
@@ -254,6 +263,9 @@ static void price(const struct search *q, struct target *t, const double dir[2])
     const double *p = rough(f, q->i);
     double along = (t->xy[0] - p[0]) * t->dir[0] + (t->xy[1] - p[1]) * t->dir[1];
     double sine = t->dir[0] * dir[1] - t->dir[1] * dir[0];
+    double cosine = t->dir[0] * dir[0] + t->dir[1] * dir[1];
+    if (f->b->sided[t->line] && fabs(cosine) > 0.5)
+        t->steep = cosine > 0 ? 1 : -1;
     double far = reach > 0 ? t->far / reach : 0;
     along = q->axis || !(half > 0) ? 0 : along / half;
     t->cost = far * far + COST_END * along * along + COST_ACROSS * sine * sine;
@@ -262,7 +274,7 @@ static void price(const struct search *q, struct target *t, const double dir[2])
 static void find_targets(struct fit *f, size_t i)
 {
     size_t last = f->bank->n - 1;
-    struct search q = {.fit = f, .i = i, .out = f->target + i * (MOST_TARGETS + 1)};
+    struct search q = {.fit = f, .i = i, .out = f->target + i * (MOST_TARGETS + STAYS)};
     if (i == 0 || i == last)
         q.axis = f->bank->slide[i > 0];
     double dir[2], reach = f->bank->reach[i];
@@ -272,7 +284,9 @@ static void find_targets(struct fit *f, size_t i)
     hm_segindex_box(f->b->index, lo, hi, try_segment, &q);
     for (int32_t k = 0; k < q.n; k++)
         price(&q, &q.out[k], dir);
-    q.out[q.n++] = (struct target){.line = -1, .xy = {p[0], p[1]}, .cost = COST_UNMOVED};
+    for (int steep = -1; steep <= 1; steep++)
+        q.out[q.n++] =
+            (struct target){.line = -1, .xy = {p[0], p[1]}, .steep = steep, .cost = COST_UNMOVED};
     f->ntargets[i] = q.n;
 }
 
@@ -294,10 +308,15 @@ static bool same_stretch(const struct fit *f, const struct target *p, const stru
            fabs(way_along(f->b, p->line, p->s, q->s)) <= MOST_DETOUR * straight;
 }
 
-/* The price of going from target p of point i to target q of the next; infinite for going back. */
+/* The price of going from target p of point i to target q of the next; infinite for going back. A
+ * toe has its steep side away from the river, a crest towards it: a bank that goes from one to the
+ * other, also across points that find nothing, does so only where the rough line insists. */
 static double step_cost(const struct fit *f, size_t i, const struct target *p,
                         const struct target *q)
 {
+    double turn = p->steep * q->steep < 0 ? COST_SWITCH : 0;
+    if (q->line < 0 && p->steep != q->steep)
+        return INFINITY;
     if (p->line < 0 && q->line < 0)
         return 0;
     const double *a = rough(f, i), *b = rough(f, i + 1);
@@ -307,9 +326,9 @@ static double step_cost(const struct fit *f, size_t i, const struct target *p,
     if (!(go[0] * want[0] + go[1] * want[1] >= LEAST_STEP * length2))
         return INFINITY;
     if (p->line < 0 || q->line < 0)
-        return COST_LEAVE;
+        return COST_LEAVE + turn;
     double dx = go[0] - want[0], dy = go[1] - want[1];
-    double cost = COST_STRETCH * (dx * dx + dy * dy) / length2;
+    double cost = COST_STRETCH * (dx * dx + dy * dy) / length2 + turn;
     if (same_stretch(f, p, q))
         return cost;
     double unit = sqrt(length2) / 2;
@@ -319,7 +338,7 @@ static double step_cost(const struct fit *f, size_t i, const struct target *p,
 
 static void find_way(struct fit *f, const struct target **way)
 {
-    size_t n = f->bank->n, stride = MOST_TARGETS + 1;
+    size_t n = f->bank->n, stride = MOST_TARGETS + STAYS;
     for (int32_t k = 0; k < f->ntargets[0]; k++)
         f->target[k].total = f->target[k].cost;
     for (size_t i = 1; i < n; i++)
@@ -442,7 +461,7 @@ enum hm_err hm_snap_bank(const struct hm_breaklines *b, const struct hm_bank *ba
                          bool *moved, struct hm_diag *d)
 {
     struct fit f = {.b = b, .bank = bank};
-    f.target = hm_alloc0(bank->n, (MOST_TARGETS + 1) * sizeof *f.target);
+    f.target = hm_alloc0(bank->n, (MOST_TARGETS + STAYS) * sizeof *f.target);
     f.ntargets = hm_alloc(bank->n, sizeof *f.ntargets);
     const struct target **way = hm_alloc(bank->n, sizeof *way);
     enum hm_err err = f.target && f.ntargets && way ? HM_OK : hm_fail_memory(d);

@@ -3,7 +3,8 @@
  *
  * "Moved to the nearest breakline" is a fit of the whole bank, not of each point alone: where two
  * breaklines run side by side (toe and crest) the bank stays on one of them, it goes forward along
- * the bank everywhere, and crosses over only where that costs less than it gains.
+ * the bank everywhere, and crosses over only where that costs less than it gains. Lines with
+ * limit=, which are steep on their left, tell toe from crest by which way they run beside the bank.
  */
 #ifndef HM_SNAP_H
 #define HM_SNAP_H

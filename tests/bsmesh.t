@@ -205,6 +205,31 @@ if need_data danube_deggendorf/points.xyz; then
     ok "quadrilaterals there" bsmesh -o danube.hm -Q -c 25/20 -e 16/10 "$TESTS/danube_lines.txt" found.hm "$survey"
 fi
 
+# A right bank drawn between toe and crest, metres from either: it stays on the crest all along.
+if need_data severn_caersws/points.xyz; then
+    survey=$DATA/severn_caersws/points.xyz
+    bsgrid -d 5 "$survey" 2>/dev/null | slope | breaklines -s 6 -l 60 -r 8 >found.hm 2>/dev/null
+    lines "> surface=s side=left
+303150 285675 0
+303250 285685 0
+303370 285685 0
+303470 285665 0
+303540 285635 0
+303585 285590 0
+303590 285560 0
+> surface=s side=right
+303150 285620 0
+303250 285635 0
+303400 285635 0
+303450 285615 0
+303500 285590 0
+303540 285555 0
+303550 285535 0" >severn.txt
+    ok "the Severn" bsmesh -o severn.hm -n 15 -c 10/8 -e 10/6 severn.txt found.hm "$survey"
+    true_that "no node of the bank down at the toe" "$(awk '/^v/ && int($5 / 2) % 2 { p[n++] = $0 }
+        END { for (i = 0; i < n; i++) { split(p[i], v); low += v[4] < 120.3 } print low + 0 }' severn.hm) == 0"
+fi
+
 # --- what is refused ---
 
 refuse() { # NAME PATTERN LINES [OPTION …]

@@ -247,8 +247,54 @@ static void test_hairpin(void)
     clear(s);
 }
 
+/* A breakline y = at from x0 to x1, or back: as `breaklines` makes them, steep on the left. */
+static void add_sided(struct scene *s, double x0, double x1, double at)
+{
+    double xyz[3 * MOST], step = x1 > x0 ? 1 : -1;
+    size_t n = (size_t)fabs(x1 - x0) + 1;
+    for (size_t i = 0; i < n; i++) {
+        xyz[3 * i] = x0 + step * (double)i;
+        xyz[3 * i + 1] = at;
+        xyz[3 * i + 2] = 1;
+    }
+    add_line(s, "limit=8", false, xyz, n);
+}
+
+/* A left bank going east, the river south of it: the crest runs west, the toe, nearer to the river,
+ * east. Between two pieces of crest there is a gap. */
+static void test_sides(void)
+{
+    struct scene *s = &scene;
+    for (int round = 0; round < 2; round++) {
+        bool sided = round == 1;
+        add_sided(s, sided ? 165 : -20, sided ? -20 : 165, 2);
+        add_sided(s, sided ? 420 : 205, sided ? 205 : 420, 2);
+        add_sided(s, -20, 420, -1.5);
+        straight_bank(s, 41, 6);
+        for (size_t i = 0; i < s->n; i++)
+            s->rough[3 * i + 1] = 1.6;
+        snap_it(s, 0, 1);
+        int toe = 0;
+        for (size_t i = 0; i < s->n; i++)
+            toe += s->moved[i] && s->xy[2 * i + 1] < 0;
+        ok(sided ? toe == 0 : toe > 0, "%s: %d points on the toe",
+           sided ? "sides known, the bank stays on the crest" : "not known, it goes over", toe);
+        clear(s);
+    }
+    add_sided(s, 220, -20, 2); /* a rough line that goes from the crest's middle to the toe's */
+    add_sided(s, -20, 420, -4);
+    straight_bank(s, 41, 6);
+    for (size_t i = 0; i < s->n; i++)
+        s->rough[3 * i + 1] = i < 18 ? 2 : -4;
+    snap_it(s, 0, 1);
+    ok(s->moved[8] && s->xy[2 * 8 + 1] == 2 && s->moved[35] && s->xy[2 * 35 + 1] == -4,
+       "where the rough line goes over, so does the bank");
+    clear(s);
+}
+
 int main(void)
 {
+    test_sides();
     test_straight();
     test_ends_slide();
     test_toe_and_crest();

@@ -70,7 +70,7 @@ uint32_t hm_order_key(const struct hm_order_frame *f, const double *p)
     uint32_t cell[2];
     for (int k = 0; k < 2; k++) {
         double at = (p[k] * f->pre - f->min[k]) * f->scale[0] * f->scale[1];
-        cell[k] = at > 0 && at < 0x1p16 ? (uint32_t)at : 0; /* what is not finite goes anywhere */
+        cell[k] = at >= 0x1p16 ? 0xffff : at > 0 ? (uint32_t)at : 0; /* NaN goes anywhere */
     }
     return spread(cell[0]) | spread(cell[1]) << 1;
 }

@@ -21,7 +21,8 @@ struct hm_order_item {
 
 /* The frame of n points (all finite), the i-th at xy[i*stride]. */
 struct hm_order_frame hm_order_frame(const double *xy, size_t n, size_t stride);
-uint32_t hm_order_key(const struct hm_order_frame *f, const double *p);
+uint32_t hm_order_key(const struct hm_order_frame *f,
+                      const double *p); /* any p: the nearest cell */
 
 /* How finely to sort: to the cell, points of a cell by index; or on to the last bit, points of a
  * cell by their keys in a frame of their own and so on, and only equal points by index. */

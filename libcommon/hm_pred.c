@@ -107,11 +107,28 @@ static void big_cross(struct hm_bigint *r, const struct hm_bigint *a, const stru
     hm_bigint_sub(r, &left, &right);
 }
 
+/* Lattices of any spacing are full of lines along an axis and of upright rectangles. Both are told
+ * by equal coordinates alone, for a tenth of what exact arithmetic takes. */
+
+static bool is_upright_line(const double *a, const double *b, const double *c)
+{
+    return (a[0] == b[0] && b[0] == c[0]) || (a[1] == b[1] && b[1] == c[1]);
+}
+
+/* Are d and q opposite corners of a rectangle, p and r the others? */
+static bool is_upright_rectangle(const double *d, const double *p, const double *q, const double *r)
+{
+    return (d[0] == p[0] && p[1] == q[1] && q[0] == r[0] && r[1] == d[1]) ||
+           (d[1] == p[1] && p[0] == q[0] && q[1] == r[1] && r[0] == d[0]);
+}
+
 int hm_pred_orient_exact(const double *a, const double *b, const double *c)
 {
     const double *const p[2] = {a, b};
     double v[4];
     int64_t w[4];
+    if (is_upright_line(a, b, c))
+        return 0;
     /* 31 bits: products and their difference fit 64 */
     if (differences(p, 2, c, v) && as_small(v, 4, 31, w))
         return sign_of(w[0] * w[3] - w[1] * w[2]);
@@ -139,6 +156,9 @@ int hm_pred_incircle_exact(const double *a, const double *b, const double *c, co
     const double *const p[3] = {a, b, c};
     double v[6];
     int64_t w[6];
+    if (is_upright_rectangle(d, a, b, c) || is_upright_rectangle(d, b, c, a) ||
+        is_upright_rectangle(d, c, a, b))
+        return 0;
     /* 14 bits: lifts and cross products have 29, their products 58, the sum 60 */
     if (differences(p, 3, d, v) && as_small(v, 6, 14, w)) {
         int64_t aa = w[0] * w[0] + w[1] * w[1], bb = w[2] * w[2] + w[3] * w[3];

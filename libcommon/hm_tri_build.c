@@ -73,7 +73,7 @@ static enum hm_err merge_equal(struct build *b, struct hm_diag *d)
             b->key[n++] = b->key[i];
         }
     }
-    t->vertices = (int32_t)n;
+    t->vertices = t->built = (int32_t)n;
     t->duplicates = b->equals;
     return HM_OK;
 }
@@ -116,6 +116,7 @@ static enum hm_err build(struct build *b, struct hm_diag *d)
     if (err)
         return err;
     hm_thread_for(b->threads, (t->n_input + CHUNK - 1) / CHUNK, gather, b);
+    t->frame = hm_order_frame(t->xy, t->n_input, 2);
     err = merge_equal(b, d);
     if (!err)
         err = triangulate(b, d);

@@ -48,32 +48,82 @@ static double distance(const double *p, const double *q)
     return fabs(p[0] - q[0]) + fabs(p[1] - q[1]);
 }
 
-/* Vertices are in spatial order: the nearest of some spread evenly over their numbers is a good
- * place to begin (jump and walk). */
-static int32_t jump(const struct hm_tri *t, const double *p)
+/* The vertex found nearest so far. */
+struct nearest {
+    const double *p;
+    int32_t v;
+    double distance;
+};
+
+/* Look at v, or when it is removed at one with a number near it. */
+static void look_at(const struct hm_tri *t, struct nearest *n, int32_t v)
 {
-    int32_t n = t->vertices, samples = (int32_t)cbrt(n) + 1, nearest = HM_TRI_NONE;
-    double least = INFINITY;
-    for (int32_t i = 0; i < samples; i++) {
-        int32_t v = (int32_t)((int64_t)(n - 1) * i / samples);
-        while (v < n && !hm_tri_is_used(t, v))
-            v++;
-        if (v == n)
-            break; /* never the first time: not all vertices can be removed */
-        if (nearest == HM_TRI_NONE || distance(hm_tri_at(t, v), p) < least) {
-            least = distance(hm_tri_at(t, v), p);
-            nearest = v;
-        }
+    enum { TRIES = 64 };
+    int32_t last = v + TRIES < t->vertices ? v + TRIES : t->vertices;
+    while (v < last && !hm_tri_is_used(t, v))
+        v++;
+    if (v == last)
+        return;
+    double here = distance(hm_tri_at(t, v), n->p);
+    if (n->v == HM_TRI_NONE || here < n->distance) {
+        n->v = v;
+        n->distance = here;
     }
-    return t->edge ? t->edge[nearest] / 3 : 2 * nearest;
 }
 
-/* As built, triangle 2v or one near it is at vertex v, give or take the last two. */
+/* Where p would stand among the vertices that are in order. */
+static int32_t find_in_order(const struct hm_tri *t, const double *p)
+{
+    uint32_t key = hm_order_key(&t->frame, p);
+    int32_t low = 0, high = t->built;
+    while (high - low > 1) {
+        int32_t mid = low + (high - low) / 2;
+        if (hm_order_key(&t->frame, hm_tri_at(t, mid)) <= key)
+            low = mid;
+        else
+            high = mid;
+    }
+    return low;
+}
+
+/* Look at some vertices, spread evenly over the numbers not under `from` (jump and walk). */
+static void look_around(const struct hm_tri *t, struct nearest *n, int32_t from)
+{
+    int32_t some = t->vertices - from, samples = some > 0 ? (int32_t)cbrt(some) + 1 : 0;
+    for (int32_t i = 0; i < samples; i++)
+        look_at(t, n, from + (int32_t)((int64_t)some * i / samples));
+}
+
+/* A triangle at vertex v; as built, 2v or one near it, give or take the last two. */
+static int32_t triangle_near(const struct hm_tri *t, int32_t v)
+{
+    if (t->edge)
+        return t->edge[v] / 3;
+    return v < t->vertices - 1 ? 2 * v : 2 * v - 2;
+}
+
+/* A good place to begin a walk to p: of the vertices as built those beside p in their order along
+ * the curve; of those added later, which are in no order, the nearest of a few. */
+static int32_t jump(const struct hm_tri *t, const double *p)
+{
+    struct nearest n = {.p = p, .v = HM_TRI_NONE};
+    int32_t here = find_in_order(t, p);
+    look_at(t, &n, here);
+    if (here + 1 < t->built)
+        look_at(t, &n, here + 1);
+    look_around(t, &n, t->built);
+    if (n.v == HM_TRI_NONE)
+        look_around(t, &n, 0);
+    for (int32_t v = 0; n.v == HM_TRI_NONE; v++) /* not all vertices can be removed */
+        look_at(t, &n, v);
+    return triangle_near(t, n.v);
+}
+
 int32_t hm_tri_edge_of(const struct hm_tri *t, int32_t v)
 {
     if (t->edge)
         return t->edge[v];
-    int32_t e = 3 * hm_tri_find(t, hm_tri_at(t, v), v < t->vertices - 1 ? 2 * v : 2 * v - 2);
+    int32_t e = 3 * hm_tri_find(t, hm_tri_at(t, v), triangle_near(t, v));
     while (t->half[e].org != v)
         e++;
     return e;

@@ -10,6 +10,7 @@
 #ifndef HM_TRI_TOPOLOGY_H
 #define HM_TRI_TOPOLOGY_H
 
+#include "hm_order.h"
 #include "hm_pred_inline.h"
 #include "hm_tri.h"
 
@@ -47,6 +48,9 @@ struct hm_tri {
     int32_t *input; /* lowest input point at each vertex, HM_TRI_NONE: added */
     int32_t vertices;
     size_t cap_vertices;
+
+    struct hm_order_frame frame; /* vertices 0 .. built are in the order of their keys in it, */
+    int32_t built;               /* unless moved; later ones in none */
 
     int32_t *of_input; /* vertex of each of n_input points */
     size_t n_input, duplicates;

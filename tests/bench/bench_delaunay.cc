@@ -375,6 +375,13 @@ void memory(const char *self, const char *name, size_t n)
     line(name, mine, peer, mine, 90, false, "B");
 }
 
+// Without a peer, whose gigabytes tell nothing new.
+void memory_alone(const char *self, const char *name, size_t n, double goal)
+{
+    double mine = peak_bytes(self, "ours", n) / 1e9;
+    line(name, mine, NAN, mine, goal, false, "GB");
+}
+
 void all(const char *self, bool quick, const char *poly)
 {
     printf("%-34s %9s %9s    %6s  %6s\n", "case", "ours", "CGAL", "ratio", "goal");
@@ -393,7 +400,8 @@ void all(const char *self, bool quick, const char *poly)
     compare("lidar 5M", 0.60, ours(lid, 1), cgal(lid));
     compare("uniform 5M, two threads", 0.35, ours(uni, 2), cgal(uni), CLOCK_MONOTONIC);
     compare("lidar 5M, two threads", 0.35, ours(lid, 2), cgal(lid), CLOCK_MONOTONIC);
-    lid = Cloud();
+    grid = lid = uni = Cloud();
+    memory_alone(self, "peak memory, uniform 20M", 20000000, 1.8);
     uni = uniform(20000000);
     Times big;
     for (int i = 0; i < 5; i++)

@@ -126,6 +126,20 @@ static void on_decimal_grid(double p[8])
         p[i] = 545000 * (i % 2) + 0.1 * (double)(draw() % 9);
 }
 
+/* Corners of a rectangle along the axes, with random bits: all cocircular, many in line. */
+static void upright(double p[8])
+{
+    double x[2] = {uniform(), uniform()}, y[2] = {uniform(), uniform()};
+    uint64_t odd = draw();
+    for (int i = 0; i < 4; i++) {
+        uint64_t corner = draw();
+        p[2 * i] = x[corner % 2];
+        p[2 * i + 1] = y[corner / 2 % 2];
+    }
+    if (odd % 2)
+        p[odd / 2 % 8] = uniform();
+}
+
 /* whole points on a circle of radius 65 about a whole centre */
 static void cocircular(double p[8])
 {
@@ -248,6 +262,7 @@ int main(void)
 {
     compare(on_grid, "small grid");
     compare(on_decimal_grid, "decimal grid");
+    compare(upright, "upright rectangles");
     compare(cocircular, "cocircular");
     compare(cocircular_by_an_ulp, "cocircular but for an ulp");
     compare(nearly_in_line, "nearly in line");

@@ -183,11 +183,25 @@ static void location(void)
     const double nowhere[14] = {NAN, 1,         1,     INFINITY, -INFINITY, NAN, 1,
                                 1,   -INFINITY, 1e308, -1e308,   1e308,     5,   5};
     for (size_t n = 0; n <= 7; n++) { /* the first three alone too */
-        wrong += hm_tri_locate_all(t, nowhere, n, 2, 1, tri, NULL) != HM_OK;
+        int32_t there[7];
+        wrong += hm_tri_locate_all(t, nowhere, n, 2, 1, there, NULL) != HM_OK;
         for (size_t i = 0; i < n; i++)
-            wrong += (tri[i] != HM_TRI_NONE) != (i == 3 || i == 6);
+            wrong += (there[i] != HM_TRI_NONE) != (i == 3 || i == 6);
     }
     ok(wrong == 0, "nor is it in bulk");
+    int gone = 0;
+    for (int32_t v = 1000; v < 4800; v++)
+        gone += !hm_tri_remove(t, v, NULL);
+    for (int i = 0; i < 200; i++) { /* some come back, as the last */
+        int32_t v;
+        wrong += hm_tri_insert(t, 70 * uniform(), 69 * uniform(), HM_TRI_NONE, &v, NULL) != HM_OK;
+    }
+    for (int i = 0; i < QUERIES; i++) {
+        const double *p = at + 2 * i;
+        int32_t k = hm_tri_locate(t, p[0], p[1], NULL);
+        wrong += (k == HM_TRI_NONE) != (tri[i] == HM_TRI_NONE) || (k >= 0 && !holds(t, k, p));
+    }
+    ok(wrong == 0 && gone > 3000, "found without a hint where vertices are gone");
     hm_tri_free(t);
     free(xy);
     free(at);

@@ -39,18 +39,20 @@ static void step(struct hm_tri *t, const uint8_t *bytes, uint8_t kind)
     double x = place(kind, bytes[1]), y = place(kind, bytes[2]);
     struct hm_tri_segment s = {a, b, 1 + bytes[0] / 8};
     bool both = hm_tri_is_used(t, a) && hm_tri_is_used(t, b);
+    int32_t edge = both ? hm_tri_edge_between(t, a, b) : HM_TRI_NONE;
     enum hm_err err = HM_OK;
-    if (bytes[0] % 8 < 4 && both)
+    if (bytes[0] % 8 < 3 && both)
         err = hm_tri_constrain(t, &s, 1, NULL, NULL);
+    else if (bytes[0] % 8 == 3 && edge != HM_TRI_NONE)
+        err = hm_tri_unmark(t, edge, s.marks, NULL);
     else if (bytes[0] % 8 == 4)
         err = hm_tri_insert(t, x, y, HM_TRI_NONE, &v, NULL);
     else if (bytes[0] % 8 == 5)
         (void)hm_tri_remove(t, a, NULL);
     else if (bytes[0] % 8 == 6)
         (void)hm_tri_move(t, a, x, y, NULL);
-    else if (both && hm_tri_edge_between(t, a, b) != HM_TRI_NONE)
-        (void)hm_tri_split(t, hm_tri_edge_between(t, a, b),
-                           (hm_tri_xy(t, a)[0] + hm_tri_xy(t, b)[0]) / 2,
+    else if (bytes[0] % 8 == 7 && edge != HM_TRI_NONE)
+        (void)hm_tri_split(t, edge, (hm_tri_xy(t, a)[0] + hm_tri_xy(t, b)[0]) / 2,
                            (hm_tri_xy(t, a)[1] + hm_tri_xy(t, b)[1]) / 2, &v, NULL);
     if (err)
         abort();

@@ -134,7 +134,7 @@ $(B)/bench/%: tests/bench/%.cc $(LIB)
 	$(Q)$(CXX) -std=c++17 -O3 -DNDEBUG -Ilibcommon -MMD -MP -o $@ $< $(LIB) -lgmp -lmpfr -pthread -lm
 
 bench: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
-bench-delaunay: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
+bench-delaunay bench-refine: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
 $(BENCH:%=bench-%): bench-%: $(B)/bench/bench_%
 	$(Q)tests/deps bench quiet
 	$(Q)$< $(BENCH_ARGS)

@@ -4,23 +4,19 @@
 //     bench_delaunay -m ours|cgal N         only triangulate N uniform points (for the memory
 //     cases)
 //
-// A line a case: name, ours, the peer's, their ratio, the goal for it, ok or MISS. Ours and the
-// peer take turns; the figures are medians of five. One thread is measured in processor time, so
-// that other programs disturb less; a `~` marks times that still scatter by more than a quarter.
+// bench.hh says how to read the table.
+
+#include "bench.hh"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/spatial_sort.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
-#include <functional>
 #include <malloc.h>
 #include <string>
 #include <sys/resource.h>
@@ -35,27 +31,12 @@ extern "C" {
 namespace
 {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
+using namespace bench;
+
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel>;
 // the river's segments cross in seven places
 using Constrained =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>;
-
-struct Cloud {
-    std::vector<double> xy;
-    std::vector<Point> points;
-    size_t size() const
-    {
-        return points.size();
-    }
-    void add(double x, double y)
-    {
-        xy.push_back(x);
-        xy.push_back(y);
-        points.emplace_back(x, y);
-    }
-};
 
 struct Random {
     uint64_t state = 88172645463325252u;
@@ -105,55 +86,6 @@ Cloud lattice(int side)
     return cloud;
 }
 
-// --- timing and the table ---
-
-double now(clockid_t clock)
-{
-    timespec t;
-    clock_gettime(clock, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-struct Times {
-    std::vector<double> all;
-    double median()
-    {
-        std::sort(all.begin(), all.end());
-        return all[all.size() / 2];
-    }
-    bool noisy()
-    {
-        return all[all.size() - 2] - all[1] > 0.25 * median();
-    }
-};
-
-int passed, missed;
-
-void line(const std::string &name, double ours, double peer, double ratio, double goal, bool noisy,
-          const char *unit)
-{
-    bool good = ratio <= goal;
-    printf("%-34s %9.3f %9.3f %s  %6.3f  %6.3f  %s%s\n", name.c_str(), ours, peer, unit, ratio,
-           goal, good ? "ok" : "MISS", noisy ? " ~" : "");
-    fflush(stdout);
-    (good ? passed : missed)++;
-}
-
-using Work = std::function<double(clockid_t)>; // returns seconds on the clock
-
-double compare(const std::string &name, double goal, const Work &ours, const Work &peer,
-               clockid_t clock = CLOCK_PROCESS_CPUTIME_ID)
-{
-    Times a, b;
-    for (int i = 0; i < 5; i++) {
-        a.all.push_back(ours(clock));
-        b.all.push_back(peer(clock));
-    }
-    double ratio = a.median() / b.median();
-    line(name, a.median(), b.median(), ratio, goal, a.noisy() || b.noisy(), "s");
-    return a.median();
-}
-
 // --- the contestants ---
 
 hm_tri *build(const Cloud &cloud, int threads)
@@ -188,31 +120,6 @@ Work cgal(const Cloud &cloud)
 }
 
 // --- constraints ---
-
-using Segments = std::vector<std::pair<size_t, size_t>>;
-
-// Triangle's .poly: nodes, then segments; numbers from 1.
-bool read_poly(const char *name, Cloud &cloud, Segments &segments)
-{
-    FILE *file = fopen(name, "r");
-    if (!file)
-        return false;
-    size_t n = 0, marks;
-    bool good = fscanf(file, "%zu %*d %*d %*d", &n) == 1;
-    for (size_t i = 0; good && i < n; i++) {
-        double x, y;
-        good = fscanf(file, "%*d %lf %lf%*[^\n]", &x, &y) == 2;
-        cloud.add(x, y);
-    }
-    good = good && fscanf(file, "%zu %zu", &n, &marks) == 2;
-    for (size_t i = 0; good && i < n; i++) {
-        size_t a, b;
-        good = fscanf(file, "%*d %zu %zu%*[^\n]", &a, &b) == 2;
-        segments.emplace_back(a - 1, b - 1);
-    }
-    fclose(file);
-    return good;
-}
 
 Work ours_constrained(const Cloud &cloud, const Segments &segments)
 {
@@ -384,7 +291,7 @@ void memory_alone(const char *self, const char *name, size_t n, double goal)
 
 void all(const char *self, bool quick, const char *poly)
 {
-    printf("%-34s %9s %9s    %6s  %6s\n", "case", "ours", "CGAL", "ratio", "goal");
+    header();
     Cloud uni = uniform(1000000), lid = lidar(1000000), grid = lattice(1000);
     double at_1m = compare("uniform 1M", 0.60, ours(uni, 1), cgal(uni));
     compare("lidar 1M", 0.60, ours(lid, 1), cgal(lid));
@@ -421,6 +328,5 @@ int main(int argc, char **argv)
     bool quick = argc > 1 && !strcmp(argv[1], "-q");
     const char *poly = argc > 1 + quick ? argv[1 + quick] : "river.poly";
     all(argv[0], quick, poly);
-    printf("%d ok, %d missed\n", passed, missed);
-    return missed > 0;
+    return summary();
 }

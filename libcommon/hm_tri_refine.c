@@ -1,7 +1,7 @@
 #include "hm_tri_refine.h"
 
 #include "hm_pred.h"
-#include "hm_tri_topology.h"
+#include "hm_tri_cavity.h"
 #include "hm_tri_worklist.h"
 
 #include <float.h>
@@ -19,6 +19,7 @@ struct refine {
     struct hm_tri_refined *done;
     struct hm_diag *d;
     struct hm_tri_worklist bad;
+    struct hm_tri_cavity cavity;
     struct segment *split; /* constraints to be split, a stack */
     size_t n_split, cap_split;
     int64_t added;          /* vertices, those taken out again included */
@@ -123,27 +124,27 @@ static double largest_area(const struct refine *r, const double *a, const double
 }
 
 struct verdict {
-    int32_t shortest; /* edge; the smallest angle is opposite */
-    double length2;   /* its length squared */
-    double cos2;      /* square of the cosine of that angle */
+    int32_t shortest;  /* edge; the smallest angle is opposite */
+    double length2;    /* its length squared */
+    double dot2, base; /* the square of the cosine of that angle is dot2 / base */
     bool small, large;
 };
 
-static struct verdict judge(const struct refine *r, int32_t tri)
+static inline struct verdict judge(const struct refine *r, int32_t tri)
 {
     const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
-    const double *p[3];
-    for (int i = 0; i < 3; i++)
-        p[i] = hm_tri_at(r->t, h[i].org);
-    double length[3] = {length2(p[0], p[1]), length2(p[1], p[2]), length2(p[2], p[0])};
+    const double *a = hm_tri_at(r->t, h[0].org), *b = hm_tri_at(r->t, h[1].org);
+    const double *c = hm_tri_at(r->t, h[2].org);
+    double length[3] = {length2(a, b), length2(b, c), length2(c, a)};
     int least = length[1] < length[0] ? 1 : 0;
     least = length[2] < length[least] ? 2 : least;
-    double one = length[(least + 1) % 3], other = length[(least + 2) % 3];
-    double dot = (one + other - length[least]) / 2;
+    double product = length[0] * length[1] * length[2];
+    double dot = (length[0] + length[1] + length[2]) / 2 - length[least];
     struct verdict is = {.shortest = 3 * tri + least, .length2 = length[least]};
-    is.cos2 = dot * dot / (one * other);
-    is.small = is.cos2 > r->cos2;
-    is.large = hm_area2(p[0], p[1], p[2]) > 2 * largest_area(r, p[0], p[1], p[2], tri);
+    is.dot2 = dot * dot;
+    is.base = product / length[least];
+    is.small = is.dot2 > r->cos2 * is.base;
+    is.large = hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
     return is;
 }
 
@@ -154,9 +155,12 @@ static enum hm_err check_triangle(struct refine *r, int32_t tri)
     struct verdict is = judge(r, tri);
     if (!is.large && (!is.small || is_forced(r, is.shortest)))
         return HM_OK;
-    const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    int32_t e = is.shortest;
     return hm_tri_worklist_push(
-        &r->bad, (struct hm_tri_work){tri, {h[0].org, h[1].org, h[2].org}, -1}, is.length2, r->d);
+        &r->bad,
+        (struct hm_tri_work){e,
+                             {r->t->half[e].org, hm_tri_dest_of(r->t, e), hm_tri_apex_of(r->t, e)}},
+        is.length2, r->d);
 }
 
 /* Look at all triangles and constraints around a vertex. */
@@ -301,105 +305,86 @@ static void off_centre(const struct refine *r, int32_t e, double *p)
     p[1] = a[1] + y;
 }
 
-enum { FAR = 10000 }; /* steps of a walk: more are a walk in circles */
-
-/* Walk to p; *tri becomes the triangle that holds it, or none. A constraint on the way, or under p,
- * is returned. */
-static int32_t walk(const struct refine *r, const double *p, int32_t *tri)
+static bool is_there(const struct hm_tri *t, const struct hm_tri_work *work)
 {
-    const struct hm_tri *t = r->t;
-    int32_t from = HM_TRI_NONE;
-    for (int step = 0; step < FAR; step++) {
-        int32_t cross = HM_TRI_NONE;
-        for (int32_t e = 3 * *tri; e < 3 * *tri + 3 && cross == HM_TRI_NONE; e++) {
-            int side = hm_pred_orient_fast(hm_tri_at(t, t->half[e].org),
-                                           hm_tri_at(t, hm_tri_dest_of(t, e)), p);
-            if (e != from && (side < 0 || (side == 0 && hm_tri_marks_of(t, e))))
-                cross = e;
-        }
-        if (cross == HM_TRI_NONE || hm_tri_marks_of(t, cross))
-            return cross;
-        from = t->half[cross].twin;
-        *tri = from / 3;
-    }
-    *tri = HM_TRI_NONE;
-    return HM_TRI_NONE;
+    const struct hm_tri_half *half = t->half;
+    return half[work->e].org == work->v[0] && half[hm_tri_next(work->e)].org == work->v[1] &&
+           half[hm_tri_prev(work->e)].org == work->v[2];
 }
 
-/* Queue the constraints that p would be too near: those on the rim of the triangles whose circles
- * it is in. They are in t->hole on return. *taken: one of them may not be split. */
-static enum hm_err check_place(struct refine *r, const double *p, int32_t tri, bool *taken)
+enum place { GOOD, TAKEN, BLOCKED };
+
+/* Of the constraints that have p beyond them, the one on the straight way there from the triangle.
+ */
+static bool is_on_way(const struct refine *r, int32_t tri, size_t rim, const double *p)
 {
-    struct hm_tri *t = r->t;
-    t->n_hole = 0;
-    enum hm_err err = hm_tri_hole_add(t, tri, r->d);
-    for (size_t i = 0; !err && i < t->n_hole; i++)
-        for (int32_t e = 3 * t->hole[i]; !err && e < 3 * t->hole[i] + 3; e++) {
-            int32_t f = t->half[e].twin;
-            if (hm_tri_marks_of(t, e)) {
-                bool near = encroaches(r, e, p);
-                *taken = *taken || (near && is_whole(r, e));
-                if (near && !is_whole(r, e))
-                    err = push_segment(r, e);
-                continue;
-            }
-            bool known = false;
-            for (size_t k = 0; !known && k < t->n_hole; k++)
-                known = t->hole[k] == f / 3;
-            if (!known && hm_pred_incircle_unique_fast(hm_tri_at(t, t->half[f].org),
-                                                       hm_tri_at(t, hm_tri_dest_of(t, f)),
-                                                       hm_tri_at(t, hm_tri_apex_of(t, f)), p) > 0)
-                err = hm_tri_hole_add(t, f / 3, r->d);
+    const struct hm_tri *t = r->t;
+    const double *a = hm_tri_at(t, r->cavity.rim[rim].org);
+    const double *b = hm_tri_at(t, hm_tri_cavity_dest(&r->cavity, rim));
+    double from[2] = {0, 0};
+    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++)
+        for (int k = 0; k < 2; k++)
+            from[k] += hm_tri_at(t, t->half[e].org)[k] / 3;
+    return hm_area2(from, p, a) <= 0 && hm_area2(from, p, b) >= 0;
+}
+
+/* May a vertex be put at p, in the cavity found from the triangle? Constraints that are in the way,
+ * or would have it too near, are queued. It is taken when one of them may not be split, or where
+ * doubles cannot tell it from what is there. */
+static enum hm_err check_place(struct refine *r, int32_t tri, const double *p, enum place *place)
+{
+    const struct hm_tri_cavity *c = &r->cavity;
+    enum hm_err err = HM_OK;
+    bool beyond = false, whole = false, near = false;
+    for (size_t i = 0; !err && i < c->n_rim; i++) {
+        const double *a = hm_tri_at(r->t, c->rim[i].org);
+        const double *b = hm_tri_at(r->t, hm_tri_cavity_dest(c, i));
+        if (hm_pred_orient_fast(a, b, p) > 0)
+            continue;
+        beyond = true;
+        if (!c->rim[i].marks || !is_on_way(r, tri, i, p))
+            continue;
+        near = true;
+        if (is_whole(r, c->rim[i].outer))
+            whole = true;
+        else
+            err = push_segment(r, c->rim[i].outer);
+    }
+    for (size_t i = 0; !err && !beyond && i < c->n_rim; i++)
+        if (c->rim[i].marks && encroaches(r, c->rim[i].outer, p)) {
+            near = true;
+            if (is_whole(r, c->rim[i].outer))
+                whole = true;
+            else
+                err = push_segment(r, c->rim[i].outer);
         }
+    *place = whole || (beyond && !near) ? TAKEN : near ? BLOCKED : GOOD;
     return err;
 }
 
-static bool is_there(const struct hm_tri *t, const struct hm_tri_work *work)
-{
-    const struct hm_tri_half *h = t->half + 3 * (size_t)work->tri;
-    return h[0].org == work->v[0] && h[1].org == work->v[1] && h[2].org == work->v[2];
-}
-
-static bool is_corner(const struct hm_tri *t, int32_t tri, const double *p)
-{
-    for (int32_t e = 3 * tri; e < 3 * tri + 3; e++) {
-        const double *q = hm_tri_at(t, t->half[e].org);
-        if (p[0] == q[0] && p[1] == q[1])
-            return true;
-    }
-    return false;
-}
-
-static enum hm_err split_triangle(struct refine *r, struct hm_tri_work *work)
+static enum hm_err split_triangle(struct refine *r, const struct hm_tri_work *work,
+                                  enum place *place)
 {
     double p[2];
-    int32_t tri = work->tri, v;
-    size_t before = r->n_split;
-    struct verdict is = judge(r, tri);
-    off_centre(r, is.shortest, p);
-    if (!isfinite(p[0]) || !isfinite(p[1]))
+    int32_t v, tri = work->e / 3;
+    *place = TAKEN;
+    off_centre(r, work->e, p);
+    if (!isfinite(p[0]) || !isfinite(p[1]) ||
+        hm_pred_incircle_fast(hm_tri_at(r->t, work->v[0]), hm_tri_at(r->t, work->v[1]),
+                              hm_tri_at(r->t, work->v[2]), p) <= 0)
         return HM_OK;
-    int32_t block = walk(r, p, &tri);
-    enum hm_err err = HM_OK;
-    bool taken = block != HM_TRI_NONE && is_whole(r, block);
-    if (block != HM_TRI_NONE && !taken)
-        err = push_segment(r, block);
-    else if (taken || tri == HM_TRI_NONE || is_corner(r->t, tri, p))
-        return HM_OK; /* at a constraint that stays, or smaller than doubles can tell */
-    else
-        err = check_place(r, p, tri, &taken);
-    if (!err && r->n_split > before) { /* again when they are split, if they can be */
-        bool again = work->added != r->added;
-        work->added = r->added;
-        return again ? hm_tri_worklist_push(&r->bad, *work, is.length2, r->d) : HM_OK;
-    }
-    if (err || taken)
+    enum hm_err err = hm_tri_cavity_find(&r->cavity, r->t, p, tri, r->d);
+    if (!err)
+        err = check_place(r, tri, p, place);
+    if (err || *place != GOOD)
         return err;
-    err = hm_tri_insert(r->t, p[0], p[1], tri, &v, r->d);
+    err = hm_tri_cavity_fill(&r->cavity, r->t, p, &v, r->d);
     if (!err)
         err = note_parent(r, v, (struct segment){HM_TRI_NONE, HM_TRI_NONE});
     r->done->inside += !err;
-    return err ? err : check_around(r, v);
+    for (size_t i = 0; !err && i < r->cavity.n_tri; i++)
+        err = check_triangle(r, r->cavity.tri[i]);
+    return err;
 }
 
 /* --- all of it --- */
@@ -423,6 +408,45 @@ static enum hm_err close_outline(struct refine *r)
     return err;
 }
 
+static bool is_full(struct refine *r)
+{
+    r->done->capped = r->q->most > 0 && r->added >= r->q->most;
+    return r->done->capped;
+}
+
+static enum hm_err split_segments(struct refine *r)
+{
+    enum hm_err err = HM_OK;
+    while (!err && r->n_split > 0 && !is_full(r))
+        err = split_segment(r, r->split[--r->n_split]);
+    return err;
+}
+
+/* Split a triangle, first the constraints in its way; those that cannot be split end it. */
+static enum hm_err mend(struct refine *r, const struct hm_tri_work *work)
+{
+    enum hm_err err = HM_OK;
+    enum place place = BLOCKED;
+    while (!err && place == BLOCKED && is_there(r->t, work) && !is_full(r)) {
+        int64_t added = r->added;
+        err = split_triangle(r, work, &place);
+        if (!err)
+            err = split_segments(r);
+        if (added == r->added)
+            break;
+    }
+    return err;
+}
+
+static void fetch_soon(const struct refine *r)
+{
+    const struct hm_tri_work *soon = hm_tri_worklist_soon(&r->bad);
+    if (soon) {
+        __builtin_prefetch(r->t->half + soon->e);
+        __builtin_prefetch(hm_tri_at(r->t, soon->v[2]));
+    }
+}
+
 static enum hm_err refine(struct refine *r)
 {
     struct hm_tri_work work;
@@ -432,16 +456,11 @@ static enum hm_err refine(struct refine *r)
             err = check_segment(r, e);
     for (int32_t k = 0; !err && k < r->t->triangles; k++)
         err = check_triangle(r, k);
-    while (!err) {
-        r->done->capped = r->q->most > 0 && r->added >= r->q->most;
-        if (r->done->capped)
-            break;
-        if (r->n_split > 0)
-            err = split_segment(r, r->split[--r->n_split]);
-        else if (!hm_tri_worklist_pop(&r->bad, &work))
-            break;
-        else if (is_there(r->t, &work))
-            err = split_triangle(r, &work);
+    if (!err)
+        err = split_segments(r);
+    while (!err && !is_full(r) && hm_tri_worklist_pop(&r->bad, &work)) {
+        fetch_soon(r);
+        err = mend(r, &work);
     }
     return err;
 }
@@ -455,9 +474,9 @@ static void report(struct refine *r)
         struct verdict is = judge(r, k);
         r->done->small += is.small;
         r->done->large += is.large;
-        if (is.cos2 > cos2) {
+        if (is.dot2 > cos2 * is.base) {
             const double *apex = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
-            cos2 = is.cos2;
+            cos2 = is.dot2 / is.base;
             r->done->x = apex[0];
             r->done->y = apex[1];
         }
@@ -485,7 +504,8 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     enum hm_err err = refine(r);
     if (!err)
         report(r);
-    free(r->bad.item);
+    hm_tri_cavity_free(&r->cavity);
+    free(r->bad.block);
     free(r->split);
     free(r->parent);
     free(r);

@@ -96,19 +96,26 @@ static int32_t common_corner(const struct refine *r, int32_t p, int32_t q)
     return s.b == u.a || s.b == u.b ? s.b : HM_TRI_NONE;
 }
 
-/* Is the shortest edge, e, one between two constraints on a circle about their corner? Then it is
- * the corner that makes it short, and to split its triangle would only make shorter ones. Equally
- * when the small angle is between two constraints itself. */
+/* Is the angle opposite e between two constraints? */
+static bool is_given(const struct refine *r, int32_t e)
+{
+    return r->t->marks[hm_tri_next(e)] && r->t->marks[hm_tri_prev(e)];
+}
+
+/* Is the shortest edge, e, one between two constraints on a circle about their corner, under the
+ * minimum angle there? Then it is the corner that makes it short, and to split its triangle would
+ * only make shorter ones. Equally when the small angle is between two constraints itself. */
 static bool is_forced(const struct refine *r, int32_t e)
 {
-    if (hm_tri_marks_of(r->t, hm_tri_next(e)) && hm_tri_marks_of(r->t, hm_tri_prev(e)))
+    if (is_given(r, e))
         return true;
     int32_t p = r->t->half[e].org, q = hm_tri_dest_of(r->t, e), corner = common_corner(r, p, q);
     if (corner == HM_TRI_NONE)
         return false;
-    double one = length2(hm_tri_at(r->t, corner), hm_tri_at(r->t, p));
-    double other = length2(hm_tri_at(r->t, corner), hm_tri_at(r->t, q));
-    return one < 1.001 * other && one > 0.999 * other;
+    const double *o = hm_tri_at(r->t, corner), *a = hm_tri_at(r->t, p), *b = hm_tri_at(r->t, q);
+    double one = length2(o, a), other = length2(o, b), dot = dot_at(o, a, b);
+    return one < 1.001 * other && one > 0.999 * other && dot > 0 &&
+           dot * dot > r->cos2 * one * other;
 }
 
 static double largest_area(const struct refine *r, const double *a, const double *b,
@@ -328,37 +335,38 @@ static bool is_on_way(const struct refine *r, int32_t tri, size_t rim, const dou
     return hm_area2(from, p, a) <= 0 && hm_area2(from, p, b) >= 0;
 }
 
-/* May a vertex be put at p, in the cavity found from the triangle? Constraints that are in the way,
- * or would have it too near, are queued. It is taken when one of them may not be split, or where
- * doubles cannot tell it from what is there. */
+/* Queue a constraint of the rim, or note that it may not be split. */
+static enum hm_err give_up(struct refine *r, size_t rim, enum place *place)
+{
+    if (is_whole(r, r->cavity.rim[rim].outer)) {
+        *place = TAKEN;
+        return HM_OK;
+    }
+    *place = *place == TAKEN ? TAKEN : BLOCKED;
+    return push_segment(r, r->cavity.rim[rim].outer);
+}
+
+/* May a vertex be put at p, in the cavity found from the triangle? BLOCKED: constraints that are in
+ * the way, or would have it too near, are queued. TAKEN: one of them may not be split, or doubles
+ * cannot tell p from what is there. */
 static enum hm_err check_place(struct refine *r, int32_t tri, const double *p, enum place *place)
 {
     const struct hm_tri_cavity *c = &r->cavity;
     enum hm_err err = HM_OK;
-    bool beyond = false, whole = false, near = false;
-    for (size_t i = 0; !err && i < c->n_rim; i++) {
-        const double *a = hm_tri_at(r->t, c->rim[i].org);
-        const double *b = hm_tri_at(r->t, hm_tri_cavity_dest(c, i));
-        if (hm_pred_orient_fast(a, b, p) > 0)
-            continue;
-        beyond = true;
-        if (!c->rim[i].marks || !is_on_way(r, tri, i, p))
-            continue;
-        near = true;
-        if (is_whole(r, c->rim[i].outer))
-            whole = true;
-        else
-            err = push_segment(r, c->rim[i].outer);
-    }
-    for (size_t i = 0; !err && !beyond && i < c->n_rim; i++)
-        if (c->rim[i].marks && encroaches(r, c->rim[i].outer, p)) {
-            near = true;
-            if (is_whole(r, c->rim[i].outer))
-                whole = true;
-            else
-                err = push_segment(r, c->rim[i].outer);
+    bool beyond = false;
+    *place = GOOD;
+    for (size_t i = 0; !err && i < c->n_rim; i++)
+        if (hm_pred_orient_fast(hm_tri_at(r->t, c->rim[i].org),
+                                hm_tri_at(r->t, hm_tri_cavity_dest(c, i)), p) <= 0) {
+            beyond = true;
+            if (c->rim[i].marks && is_on_way(r, tri, i, p))
+                err = give_up(r, i, place);
         }
-    *place = whole || (beyond && !near) ? TAKEN : near ? BLOCKED : GOOD;
+    if (beyond && *place == GOOD)
+        *place = TAKEN;
+    for (size_t i = 0; !err && !beyond && i < c->n_rim; i++)
+        if (c->rim[i].marks && encroaches(r, c->rim[i].outer, p))
+            err = give_up(r, i, place);
     return err;
 }
 
@@ -465,23 +473,36 @@ static enum hm_err refine(struct refine *r)
     return err;
 }
 
+static double degrees(double cos2)
+{
+    return acos(sqrt(fmin(cos2, 1))) * 180 / acos(-1);
+}
+
 static void report(struct refine *r)
 {
-    double cos2 = 0;
+    struct hm_tri_refined *done = r->done;
+    double most = 0;
     for (int32_t k = 0; k < r->t->triangles; k++) {
         if (!is_inside(r, k))
             continue;
         struct verdict is = judge(r, k);
-        r->done->small += is.small;
-        r->done->large += is.large;
-        if (is.dot2 > cos2 * is.base) {
-            const double *apex = hm_tri_at(r->t, hm_tri_apex_of(r->t, is.shortest));
-            cos2 = is.dot2 / is.base;
-            r->done->x = apex[0];
-            r->done->y = apex[1];
+        double cos2 = is.dot2 / is.base;
+        int32_t v = hm_tri_apex_of(r->t, is.shortest);
+        const double *apex = hm_tri_at(r->t, v);
+        bool given = is.small && is_given(r, is.shortest);
+        done->small += is.small;
+        done->given += given;
+        done->large += is.large;
+        if (is.small && r->q->sharp)
+            r->q->sharp(r->q->sharp_arg,
+                        &(struct hm_tri_sharp){apex[0], apex[1], degrees(cos2), v, given});
+        if (cos2 > most) {
+            most = cos2;
+            done->x = apex[0];
+            done->y = apex[1];
         }
     }
-    r->done->smallest = acos(sqrt(fmin(cos2, 1))) * 180 / acos(-1);
+    done->smallest = degrees(most);
 }
 
 enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
@@ -499,7 +520,7 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     r->first = t->vertices;
     r->cos2 = q->min_angle > 0 ? cos(angle) * cos(angle) : 2;
     r->lens = cos(2 * angle) * cos(2 * angle);
-    r->off = q->min_angle > 0 ? 0.475 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : 0;
+    r->off = q->min_angle > 0 ? 0.36 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : 0;
     hm_tri_worklist_init(&r->bad);
     enum hm_err err = refine(r);
     if (!err)

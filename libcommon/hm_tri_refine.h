@@ -11,6 +11,14 @@
 
 #include "hm_tri.h"
 
+/* An angle of a triangle that stayed under the minimum. */
+struct hm_tri_sharp {
+    double x, y, angle; /* of the corner; degrees */
+    int32_t v;          /* the vertex there */
+    bool given;         /* between two constraints, the input's own: spared. Else such a corner is
+                         * near, or a constraint that stays whole, or `most` was reached */
+};
+
 /* What is wanted. Zero is "no bound" everywhere. */
 struct hm_tri_quality {
     double min_angle; /* degrees; it surely ends up to 20, in practice up to 33. At most 40 */
@@ -24,6 +32,11 @@ struct hm_tri_quality {
                          * would need it stay */
     int32_t outside;    /* triangles of this region are left alone: holes, and beyond the outline */
     int32_t hull_marks; /* hull edges that are no constraints become one with these marks (not 0) */
+
+    /* called for each angle that stays under the minimum, at the end; or NULL */
+    void (*sharp)(void *arg, const struct hm_tri_sharp *where);
+    void *sharp_arg;
+
     int64_t most; /* no more than so many vertices are added, those taken out again included */
 };
 
@@ -31,7 +44,8 @@ struct hm_tri_quality {
 struct hm_tri_refined {
     int64_t on_segments, inside; /* vertices added */
     int64_t small;               /* triangles still under the minimum angle … */
-    double smallest, x, y;       /* … the smallest angle of all in degrees, and where */
+    int64_t given;               /* … of those, with an angle between two constraints */
+    double smallest, x, y;       /* the smallest angle of all in degrees, and where */
     int64_t large;               /* triangles still over their area */
     bool capped;                 /* `most` was reached */
 };

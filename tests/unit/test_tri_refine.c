@@ -93,6 +93,51 @@ static void bounds(void)
         }
 }
 
+/* Counts what is listed, and that it is where it says. */
+struct list {
+    const struct hm_tri *t;
+    int given, other;
+    double corner; /* smallest given angle */
+    bool good;
+};
+
+static void note(void *arg, const struct hm_tri_sharp *s)
+{
+    struct list *list = arg;
+    const double *p = hm_tri_xy(list->t, s->v);
+    list->good = list->good && p[0] == s->x && p[1] == s->y;
+    list->given += s->given;
+    list->other += !s->given;
+    if (s->given)
+        list->corner = fmin(list->corner, s->angle);
+}
+
+/* A corner over the bound forces nothing; one under it is spared and listed, and it alone. */
+static void corners(void)
+{
+    for (int degrees = 24; degrees <= 60; degrees += 4) {
+        double a = degrees * acos(-1) / 180;
+        const double xy[6] = {0, 0, 10, 0, 9.3 * cos(a), 9.3 * sin(a)};
+        struct hm_tri *t = polygon(xy, 3, 3);
+        struct list list = {.t = t, .corner = 180, .good = true};
+        struct hm_tri_quality q = {.min_angle = 30,
+                                   .max_area = 0.3,
+                                   .outside = -1,
+                                   .hull_marks = 1,
+                                   .sharp = note,
+                                   .sharp_arg = &list,
+                                   .most = 20000};
+        struct hm_tri_refined done;
+        bool good = !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) && list.good &&
+                    !done.capped && list.given == done.given &&
+                    list.given + list.other == done.small;
+        ok(good && (degrees > 30 ? done.small == 0
+                                 : done.given == 1 && fabs(list.corner - degrees) < 1e-9),
+           "a corner of %d degrees: %d listed, %d near it", degrees, list.given, list.other);
+        hm_tri_free(t);
+    }
+}
+
 /* A needle of 3 degrees: refinement ends, and only triangles at the needle's point are small. */
 static void needle(void)
 {
@@ -224,6 +269,7 @@ static void refusals(void)
 int main(void)
 {
     bounds();
+    corners();
     needle();
     sizes();
     whole();

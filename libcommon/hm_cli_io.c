@@ -141,6 +141,8 @@ static void note_header(struct hm_cli *cli, const struct hm_header *h)
         err = hm_header_merge(&cli->seen, h, &d);
     if (!err && !cli->program->degrees_ok)
         err = hm_header_need_metres(h, &d);
+    if (!err && !cli->program->degrees_ok)
+        err = hm_header_need_one_unit(h, &d);
     if (err && !d.source[0])
         snprintf(d.source, sizeof d.source, "%s", name);
     hm_cli_check(cli, err, &d);

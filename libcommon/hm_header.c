@@ -356,7 +356,7 @@ enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d)
 {
     static const char advice[] = "metres are needed (georef projects)";
     const char *crs = hm_header_get(h, "crs");
-    char text[256] = "", unit[UNIT_SIZE] = "";
+    char text[256] = "", unit[UNIT_SIZE];
     size_t n = 0;
     for (const char *s = crs ? crs : ""; *s && n < sizeof text - 1; s++)
         if (!isspace((unsigned char)*s))
@@ -368,12 +368,19 @@ enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d)
     const char *units = hm_header_get(h, "units");
     if (nth_word(units, 0, unit, sizeof unit) && !strncmp(unit, "deg", 3))
         return hm_fail(d, HM_EFORMAT, "x is in degrees (#units); %s", advice);
-    for (size_t i = 1; i < 3; i++) {
-        char other[UNIT_SIZE];
+    return HM_OK;
+}
+
+enum hm_err hm_header_need_one_unit(const struct hm_header *h, struct hm_diag *d)
+{
+    const char *units = hm_header_get(h, "units");
+    char unit[UNIT_SIZE], other[UNIT_SIZE];
+    if (!nth_word(units, 0, unit, sizeof unit))
+        return HM_OK;
+    for (size_t i = 1; i < 3; i++)
         if (nth_word(units, i, other, sizeof other) && strcmp(unit, other))
             return hm_fail(d, HM_EFORMAT,
-                           "x is in %s, %s in %s: one unit is needed (georef converts)", unit,
-                           i == 1 ? "y" : "z", other);
-    }
+                           "x is in %s, %s in %s: one unit is needed (georef -t same converts)",
+                           unit, i == 1 ? "y" : "z", other);
     return HM_OK;
 }

@@ -83,8 +83,10 @@ enum hm_err hm_header_add_history(struct hm_header *h, const char *line, struct 
  * units of x, y, z, and they differ. */
 enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, struct hm_diag *d);
 
-/* HM_EFORMAT when the crs says longitude and latitude, where metres are needed, or when x, y and z
- * have different units; names georef. */
+/* HM_EFORMAT when the crs says longitude and latitude, where metres are needed; names georef. */
 enum hm_err hm_header_need_metres(const struct hm_header *h, struct hm_diag *d);
+
+/* HM_EFORMAT when x, y and z have different units; names georef. */
+enum hm_err hm_header_need_one_unit(const struct hm_header *h, struct hm_diag *d);
 
 #endif

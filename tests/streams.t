@@ -118,7 +118,7 @@ printf 'id x Hochw z\n1 2 3 4\n' >unnamed.txt
 must_fail 'four columns and no y' 2 'no column is named as y .*: id x hochw z' hmconv unnamed.txt
 
 # --- progress: on a terminal, after two seconds, and taken away again ---
-if command -v script >/dev/null; then
+if script -qec true terminal >/dev/null 2>&1 </dev/null && [ -e terminal ]; then
     mkfifo slow
     { echo 0 0 0; sleep 2.3; awk 'BEGIN { for (i = 0; i < 20000; i++) print i % 100, int(i / 100), 1 }'; } >slow &
     script -qec 'bsgrid -o progress.hm slow' terminal >/dev/null </dev/null

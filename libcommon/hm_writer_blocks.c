@@ -22,18 +22,28 @@ static enum hm_err put_block(struct hm_writer *w, const char *tag, struct hm_dia
     return n > 0 && !err ? hm_output_write(&w->out, w->block, n * w->record, d) : err;
 }
 
-/* Where the next record of the block goes; the block is written first when it is full. */
-static enum hm_err next_record(struct hm_writer *w, const char *tag, char **to, struct hm_diag *d)
+/* Where the next records of the block go, `most` or as many as it has room for; a full block is
+ * written first. */
+static enum hm_err next_records(struct hm_writer *w, const char *tag, size_t most, char **to,
+                                size_t *n, struct hm_diag *d)
 {
     if (w->block_n == HM_BLOCK_RECORDS) {
         enum hm_err err = put_block(w, tag, d);
         if (err)
             return err;
     }
-    if (!hm_grow(&w->block, &w->block_cap, (w->block_n + 1) * w->record, 1))
+    *n = HM_BLOCK_RECORDS - w->block_n < most ? HM_BLOCK_RECORDS - w->block_n : most;
+    if (!hm_grow(&w->block, &w->block_cap, (w->block_n + *n) * w->record, 1))
         return hm_fail_memory(d);
-    *to = w->block + w->block_n++ * w->record;
+    *to = w->block + w->block_n * w->record;
+    w->block_n += *n;
     return HM_OK;
+}
+
+static enum hm_err next_record(struct hm_writer *w, const char *tag, char **to, struct hm_diag *d)
+{
+    size_t one;
+    return next_records(w, tag, 1, to, &one, d);
 }
 
 static void put_numbers(char *to, const double *v, size_t n)
@@ -54,29 +64,29 @@ static enum hm_err begin(struct hm_writer *w, struct hm_diag *d)
 
 static enum hm_err put_points(struct hm_writer *w, const double *rows, size_t n, struct hm_diag *d)
 {
-    for (size_t i = 0; i < n; i++) {
-        char *to;
-        enum hm_err err = next_record(w, "pnts", &to, d);
+    char *to;
+    for (size_t i = 0, got; i < n; i += got) {
+        enum hm_err err = next_records(w, "pnts", n - i, &to, &got, d);
         if (err)
             return err;
-        put_numbers(to, rows + i * w->nfields, w->nfields);
+        put_numbers(to, rows + i * w->nfields, got * w->nfields);
     }
     return HM_OK;
 }
 
 static enum hm_err put_row(struct hm_writer *w, const double *row, struct hm_diag *d)
 {
-    size_t bands = w->nfields - 2;
-    for (size_t i = 0; i < (size_t)w->lattice.nx; i++, row += bands) {
-        char *to;
-        enum hm_err err = next_record(w, "rows", &to, d);
+    size_t bands = w->nfields - 2, nx = (size_t)w->lattice.nx;
+    char *to;
+    for (size_t i = 0, got; i < nx; i += got, row += got * bands) {
+        enum hm_err err = next_records(w, "rows", nx - i, &to, &got, d);
         if (err)
             return err;
         if (w->format.single)
-            for (size_t b = 0; b < bands; b++)
+            for (size_t b = 0; b < got * bands; b++)
                 hm_block_put_f32(to + 4 * b, (float)row[b]);
         else
-            put_numbers(to, row, bands);
+            put_numbers(to, row, got * bands);
     }
     return HM_OK;
 }

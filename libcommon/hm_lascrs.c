@@ -61,7 +61,7 @@ static const char *unit_of_size(double metres)
         return "m";
     if (fabs(metres - 0.3048) < 1e-8)
         return "ft";
-    return fabs(metres - 1200.0 / 3937) < 1e-8 ? "ftUS" : "";
+    return fabs(metres - 1200.0 / 3937) < 1e-8 ? "us-ft" : "";
 }
 
 /* --- GeoTIFF keys: a table of (key, where, count, value), behind a row that counts them --- */
@@ -116,7 +116,7 @@ static void key_text(const struct hm_lascrs *c, unsigned key, char *to, size_t s
 /* A unit of length by its EPSG code. */
 static const char *unit_of_code(unsigned code)
 {
-    return code == 9001 ? "m" : code == 9002 ? "ft" : code == 9003 ? "ftUS" : "";
+    return code == 9001 ? "m" : code == 9002 ? "ft" : code == 9003 ? "us-ft" : "";
 }
 
 static void say_keys(const struct hm_lascrs *c, struct hm_lascrs_said *said)

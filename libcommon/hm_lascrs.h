@@ -21,7 +21,7 @@ enum hm_err hm_lascrs_take(struct hm_lascrs *c, const char user[16], size_t numb
                            const char *bytes, size_t n, struct hm_diag *d);
 void hm_lascrs_free(struct hm_lascrs *c);
 
-/* What the records say; "" for what they do not. Units: m, ft, ftUS (1200/3937 m) or degree. */
+/* What the records say; "" for what they do not. Units: m, ft, us-ft (1200/3937 m) or degree. */
 struct hm_lascrs_said {
     char crs[HM_LASCRS_TEXT]; /* "EPSG:2154", or a name */
     char unit[HM_LASCRS_UNIT], z_unit[HM_LASCRS_UNIT];

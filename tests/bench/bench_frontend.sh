@@ -66,10 +66,10 @@ against "1M points, B-spline at 2 m, gmt surface" 0.25 "bsgrid --quiet -b -d 2 p
     "gmt blockmean p.bin -bi3d -bo3d -I2 $region | gmt surface -bi3d -I2 $region -Gs.nc"
 against "1M points, triangles, gdal_grid linear" 0.08 "bsgrid --quiet -b -d 2 -n 0 p.hm" \
     "gdal_grid -q -a linear -txe 0 1400 -tye 0 1400 -outsize 700 700 -l p p.vrt g.tif"
-against "slope of 4000 x 4000, gdaldem" 0.5 "slope -b dem.hm" "gdaldem slope -q dem.tif s.tif"
-against "lines at 5 degrees on it, gdal_contour" 0.7 "breaklines --quiet -s 5 -l 0 slope.hm" \
+against "slope of 4000 x 4000, gdaldem" 0.5 "slope -b -o s.hm dem.hm" "gdaldem slope -q dem.tif s.tif"
+against "lines at 5 degrees on it, gdal_contour" 0.7 "breaklines --quiet -s 5 -l 0 -o c.hm slope.hm" \
     "rm -f c.gmt; gdal_contour -q -fl 5 -f OGR_GMT slope.tif c.gmt"
-against "both in a pipe, gdaldem and gdal_contour" 0.7 "slope -b dem.hm | breaklines --quiet -s 5 -l 0" \
+against "both in a pipe, gdaldem and gdal_contour" 0.7 "slope -b dem.hm | breaklines --quiet -s 5 -l 0 -o c.hm" \
     "rm -f c.gmt; gdaldem slope -q dem.tif s.tif && gdal_contour -q -fl 5 -f OGR_GMT s.tif c.gmt"
 
 printf '\n%-44s %9s %9s %7s %7s\n' "memory, MB" ours limit ratio goal

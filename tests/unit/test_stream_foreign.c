@@ -281,7 +281,7 @@ static void test_las_crs(void)
               "EPSG:25832", "m m m 1 1 1");
     says_keys("feet, heights in metres",
               (int[]){1, 1, 0, 3, 3072, 0, 1, 2926, 3076, 0, 1, 9003, 4099, 0, 1, 9001}, 16,
-              "EPSG:2926", "ftUS ftUS m 1 1 1");
+              "EPSG:2926", "us-ft us-ft m 1 1 1");
     says_keys("longitude and latitude", (int[]){1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326}, 12,
               "EPSG:4326", "degree degree m 1 1 1");
     says_keys("more keys promised than there are", (int[]){1, 1, 0, 999, 3072, 0, 1, 2154}, 8,
@@ -296,7 +296,7 @@ static void test_las_crs(void)
              "COMPD_CS[\"both\",PROJCS[\"Oregon, with ] and (\",GEOGCS[\"NAD83\"],"
              "UNIT[\"foot\",0.3048]],\n VERT_CS[\"NAVD88\",UNIT[\"US survey foot\","
              "0.3048006096012192]]]",
-             "Oregon, with ] and (", "ft ft ftUS 1 1 1");
+             "Oregon, with ] and (", "ft ft us-ft 1 1 1");
     says_wkt("WKT 2",
              "COMPOUNDCRS[\"a\",PROJCRS[\"b\",BASEGEOGCRS[\"c\",ID[\"EPSG\",4258]],"
              "LENGTHUNIT[\"metre\",1],ID[\"EPSG\",25832]],VERTCRS[\"h\",LENGTHUNIT[\"metre\",1]]]",

@@ -76,7 +76,10 @@ static enum hm_err check_ring(struct hm_ring *r, struct hm_diag *d)
         line->n--;
         line->closed = true;
     }
-    if (line->n < 3 || !line->closed)
+    if (line->n < 3)
+        return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1], "%s has only %zu %s", ring_name(r->role),
+                          line->n, line->n == 1 ? "vertex" : "vertices");
+    if (!line->closed)
         return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1], "%s is not a closed line (closed=1)",
                           ring_name(r->role));
     bool crosses;
@@ -231,8 +234,9 @@ static enum hm_err add_hull(struct hm_build *b, struct hm_diag *d)
     b->first_hull = b->nsegments;
     if (has_outline(b))
         return HM_OK;
-    enum hm_err err =
-        hm_hull_build(b->nnodes ? &b->node->x : NULL, b->nnodes, stride, &hull, &n, d);
+    if (b->nnodes == 0)
+        return hm_fail(d, HM_EGEOM, "no measurement has a height, and no outline tells the ground");
+    enum hm_err err = hm_hull_build(&b->node->x, b->nnodes, stride, &hull, &n, d);
     if (err)
         return err;
     b->hull = hm_alloc(n, 3 * sizeof *b->hull);
@@ -363,7 +367,7 @@ static enum hm_err check_measured(const struct hm_build *b, const struct hm_doma
                 return HM_OK;
         }
     }
-    return any ? hm_fail(d, HM_EGEOM, HM_BUILD_NO_MEASUREMENT) : HM_OK;
+    return any ? hm_build_fail_empty(b, d) : HM_OK;
 }
 
 /* Holes of which no part is inside an outline. */

@@ -59,6 +59,16 @@ enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d)
 
 /* --- the domain --- */
 
+enum hm_err hm_build_fail_empty(const struct hm_build *b, struct hm_diag *d)
+{
+    size_t k = 0;
+    while (k + 1 < b->nrings && b->ring[k].role != HM_ROLE_BOUNDARY)
+        k++;
+    const double *at = b->ring[k].line.xyz; /* without a ring given there is the hull */
+    return hm_fail_at(d, HM_EGEOM, at[0], at[1],
+                      "no measurement lies inside the outline, which has a corner");
+}
+
 /* The nodes that the inside uses, in the order in which they came in, then those that crossings
  * made. Of several at one place the first that has a height gives it. */
 static enum hm_err take_nodes(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
@@ -103,7 +113,7 @@ static enum hm_err take_nodes(struct hm_build *b, struct hm_domain *dom, struct 
         return hm_fail(d, HM_EGEOM,
                        "outline, holes and regular meshes leave no ground to be meshed");
     if (used == 0 && b->end_points > b->first_point)
-        return hm_fail(d, HM_EGEOM, HM_BUILD_NO_MEASUREMENT);
+        return hm_build_fail_empty(b, d);
     return HM_OK;
 }
 
@@ -192,8 +202,9 @@ static enum hm_err give_heights(const struct hm_build *b, struct hm_domain *dom,
             continue;
         node->z = hm_terrain_z_nearest(b->in->terrain, node->x, node->y, &hint);
         if (!isfinite(node->z))
-            return hm_fail_at(d, HM_EGEOM, node->x, node->y,
-                              "nothing tells the height of a node: give points or a grid");
+            return hm_fail_at(
+                d, HM_EGEOM, node->x, node->y,
+                "nothing tells the height of a node: no measurement, grid or line has one");
     }
     return HM_OK;
 }

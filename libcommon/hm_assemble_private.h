@@ -9,8 +9,6 @@
 #include "hm_fence.h"
 #include "hm_role.h"
 
-#define HM_BUILD_NO_MEASUREMENT "no measurement lies inside the outline"
-
 /* A closed line with a role. */
 struct hm_ring {
     struct hm_line line; /* not ours, but for the hull */
@@ -32,6 +30,9 @@ struct hm_build {
     size_t nsegments, segment_cap, first_breakline, first_hull, first_ring;
     struct hm_tri *tri;
 };
+
+/* HM_EGEOM: no measurement lies inside the outline, with a place on that. */
+enum hm_err hm_build_fail_empty(const struct hm_build *b, struct hm_diag *d);
 
 /* Tell inside from outside: the regions of the triangulation become those of a domain. */
 enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d);

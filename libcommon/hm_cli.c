@@ -76,6 +76,19 @@ void hm_cli_check(struct hm_cli *cli, enum hm_err err, const struct hm_diag *d)
     leave(cli);
 }
 
+struct hm_counted hm_cli_counted(int64_t n, const char *noun)
+{
+    struct hm_counted c;
+    size_t length = strlen(noun);
+    bool vertex = length > 0 && noun[length - 1] == 'x';
+    snprintf(c.text, sizeof c.text, "%lld %.*s%s", (long long)n,
+             (int)(n != 1 && vertex ? length - 2 : length), noun,
+             n == 1   ? ""
+             : vertex ? "ices"
+                      : "s");
+    return c;
+}
+
 void hm_cli_say(struct hm_cli *cli, const char *format, ...)
 {
     if (cli->quiet)
@@ -101,9 +114,10 @@ void hm_cli_mended(struct hm_cli *cli, int64_t n, const char *format, ...)
 
 void hm_cli_mended_points(struct hm_cli *cli, int64_t without_z, int64_t duplicates)
 {
-    hm_cli_mended(cli, without_z, "%lld points without a height left out", (long long)without_z);
-    hm_cli_mended(cli, duplicates, "%lld points at the place of another: their mean height counts",
-                  (long long)duplicates);
+    hm_cli_mended(cli, without_z, "%s without a height left out",
+                  hm_cli_counted(without_z, "point").text);
+    hm_cli_mended(cli, duplicates, "%s at the place of another: their mean height counts",
+                  hm_cli_counted(duplicates, "point").text);
 }
 
 static double seconds(void)

@@ -111,6 +111,11 @@ int hm_cli_spool(struct hm_cli *cli);
 void hm_cli_check(struct hm_cli *cli, enum hm_err err, const struct hm_diag *d);
 void hm_cli_die(struct hm_cli *cli, const char *format, ...)
     __attribute__((format(printf, 2, 3), noreturn));
+/* "1 edge", "3 edges", "0 vertices": hm_cli_counted(n, "edge").text as an argument of a message. */
+struct hm_counted {
+    char text[64];
+};
+struct hm_counted hm_cli_counted(int64_t n, const char *noun);
 /* One line unless --quiet. */
 void hm_cli_say(struct hm_cli *cli, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* As hm_cli_say, when n > 0; and --strict turns it into exit 1 at the end. */

@@ -131,8 +131,9 @@ static enum hm_err read_string(struct hm_reader *r, const char *s, const char *e
     struct mesh2dm *m = r->state;
     while (hm_row_skip(s, end) < end) {
         int32_t id;
+        const char *word = s;
         if (!cut_id(&s, end, &id) || id == 0)
-            return bad_line(r, s, end, d);
+            return bad_line(r, word, end, d);
         m->string_line = r->in.line;
         if (!hm_grow(&m->string_id, &m->string_id_cap, m->string_ids + 1, sizeof *m->string_id))
             return hm_fail_memory(d);

@@ -276,8 +276,8 @@ static enum hm_err check_way(const struct way *w, const struct hm_line *line, co
     size_t least = strncmp(name, "inflow", 6) ? 1 : 2;
     if (w->n <= least)
         return hm_fail_at(d, HM_EGEOM, line->xyz[0], line->xyz[1],
-                          "string=%s is %zu edges of the boundary long, and needs %zu", name,
-                          w->n - 1, least);
+                          "string=%s is %zu %s of the boundary long, and needs %zu", name, w->n - 1,
+                          w->n == 2 ? "edge" : "edges", least);
     return HM_OK;
 }
 

@@ -141,7 +141,7 @@ main
 END
 same "ADCIRC" want got
 cat >want <<'END'
-hmconv: 1 quadrilaterals split into triangles
+hmconv: 1 quadrilateral split into triangles
 hmconv: fort14 has no materials: those of 1 elements dropped
 END
 same "what fort14 lacks is said" want err
@@ -156,7 +156,7 @@ cat >want <<'END'
 END
 same "conditions for TELEMAC" want got
 cat >want <<'END'
-hmconv: 1 quadrilaterals split into triangles
+hmconv: 1 quadrilateral split into triangles
 END
 same "what cli lacks is said" want err
 
@@ -325,7 +325,7 @@ elevation
 END
 same "ANUGA" want got
 cat >want <<'END'
-hmconv: 1 quadrilaterals split into triangles
+hmconv: 1 quadrilateral split into triangles
 END
 same "what tsh lacks is said" want err
 
@@ -420,7 +420,7 @@ else
 fi
 convert slf
 ok "Selafin: what is split and dropped is said" sh -c \
-    'grep -q "1 quadrilaterals split" err && grep -q "no node strings: 3" err && grep -q "no materials" err'
+    'grep -q "1 quadrilateral split" err && grep -q "no node strings: 3" err && grep -q "no materials" err'
 if [ -n "$python" ]; then
     cat >check.py <<'END'
 import struct, numpy as np

@@ -88,7 +88,7 @@ true_that "delaunay: every measurement is a node" "$(nodes tin.hm) == $(grep -vc
 
 square 21 >square.xyz
 printf '> \n2.5 2.5\n17.5 17.5\n> \n2.5 16.9\n17.5 2.2\n> \n2.5 2.5\n17.5 17.5\n' >cross.txt
-says "crossing and double breaklines" 'lines mended: 1 crossings.* [1-9][0-9]* pieces drawn twice' \
+says "crossing and double breaklines" 'lines mended: 1 crossing,.* [1-9][0-9]* pieces drawn twice' \
     trimesh -l 2 square.xyz cross.txt -o cross.hm
 says "with -v each with its place" 'lines cross at 9[0-9.]* 9[0-9.]*$' trimesh -v -l 2 square.xyz cross.txt -o cross.hm
 ok "their heights come from the terrain" grep -q '6 vertices of breaklines' said
@@ -122,7 +122,7 @@ must_fail "a mesh beyond all memory" 2 'nodes on' trimesh -l 1e-5 square.xyz
 printf '> boundary=1 closed=1\n0 0\n20 20\n20 0\n0 20\n' >bow.txt
 must_fail "an outline that crosses itself" 2 'outline meets itself' trimesh -l 2 square.xyz bow.txt
 printf '> boundary=1 closed=1\n100 100\n120 100\n120 120\n' >away.txt
-must_fail "no points inside" 2 'no measurement lies inside' trimesh -l 2 square.xyz away.txt
+must_fail "no points inside" 2 'no measurement lies inside .* at [0-9]' trimesh -l 2 square.xyz away.txt
 printf '> region=wet closed=1\n1 1\n5 1\n5 5\n' >wet.txt
 must_fail "a region without a number" 2 'wet' trimesh -l 2 square.xyz wet.txt
 must_fail "lines alone without heights" 2 'height' trimesh -l 2 outline.txt
@@ -142,4 +142,13 @@ if need_data danube_deggendorf/points.xyz; then
     ok "Danube" trimesh -l 8 -L 20 "$DATA/danube_deggendorf/points.xyz" -o danube.hm
     true_that "as many nodes as its size wants" "$(nodes danube.hm) > 30000 && $(nodes danube.hm) < 90000"
 fi
+printf '0 0 nan\n9 0 nan\n0 9 nan\n' >nan.xyz
+printf '> boundary=1 closed=1\n1 1\n4 1\n4 4\n' >inside.txt
+must_fail "no height at all" 2 'no measurement has a height' trimesh -l 1 nan.xyz
+must_fail "nor with an outline" 2 'nothing tells the height of a node: no measurement.* at 1 1' trimesh -l 1 nan.xyz inside.txt
+printf '> hole=1 closed=1\n1 1\n' >point.txt
+must_fail "a hole of a vertex" 2 'hole has only 1 vertex at 1 1' trimesh -l 1 square.xyz point.txt
+printf '> hole=1 closed=1\n1 1\n2 2\n' >point.txt
+must_fail "a hole of two" 2 'hole has only 2 vertices at 1 1' trimesh -l 1 square.xyz point.txt
+
 done_testing

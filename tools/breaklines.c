@@ -398,8 +398,8 @@ static void say_plain(const struct tool *t, bool any)
     if (t->plain > 0 && !any)
         hm_cli_die(t->cli, "no grid has a band slope: pipe it through slope, or give --slope");
     if (t->plain > 0)
-        hm_cli_say(t->cli, "left out %zu %s without a band slope", t->plain,
-                   t->plain > 1 ? "grids" : "grid");
+        hm_cli_say(t->cli, "left out %s without a band slope",
+                   hm_cli_counted((int64_t)t->plain, "grid").text);
 }
 
 static void begin_output(struct hm_cli *cli)
@@ -427,8 +427,9 @@ static void write_held(struct tool *t)
         hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
     hm_lines_free(&t->held);
     if (back + follow > 0)
-        hm_cli_say(t->cli, "%zu vertices not smoothed, %zu pieces not resampled: lines would cross",
-                   back, follow);
+        hm_cli_say(t->cli, "%s not smoothed, %s not resampled: lines would cross",
+                   hm_cli_counted((int64_t)back, "vertex").text,
+                   hm_cli_counted((int64_t)follow, "piece").text);
 }
 
 static void finish_output(struct tool *t)
@@ -437,11 +438,10 @@ static void finish_output(struct tool *t)
     if (changes_lines())
         write_held(t);
     hm_cli_check(t->cli, hm_writer_end(hm_cli_writer(t->cli), &d), &d);
-    hm_cli_say(t->cli,
-               "%lld lines found (%lld vertices), %lld dropped (shorter than %g m), "
-               "%lld written (%lld vertices)",
-               (long long)t->found, (long long)t->found_vertices, (long long)t->dropped, t->least,
-               (long long)t->written, (long long)t->written_vertices);
+    hm_cli_say(t->cli, "%s found (%s), %lld dropped (shorter than %g m), %lld written (%s)",
+               hm_cli_counted(t->found, "line").text,
+               hm_cli_counted(t->found_vertices, "vertex").text, (long long)t->dropped, t->least,
+               (long long)t->written, hm_cli_counted(t->written_vertices, "vertex").text);
 }
 
 int main(int argc, char **argv)

@@ -122,10 +122,10 @@ static struct survey start_survey(struct hm_cli *cli)
 static void say_what_was_mended(struct hm_cli *cli, const struct survey *s)
 {
     hm_cli_mended_points(cli, s->without_z, s->duplicates);
-    hm_cli_mended(cli, s->blunders, "%lld blunders left out", (long long)s->blunders);
+    hm_cli_mended(cli, s->blunders, "%s left out", hm_cli_counted(s->blunders, "blunder").text);
     if (s->in_gaps > 0)
-        hm_cli_say(cli, "%lld nodes lie in gaps over %g m (-g) and stay empty",
-                   (long long)s->in_gaps, cmd.gap);
+        hm_cli_say(cli, "%s in gaps over %g m (-g) left empty",
+                   hm_cli_counted(s->in_gaps, "node").text, cmd.gap);
 }
 
 int main(int argc, char **argv)

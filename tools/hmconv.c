@@ -162,7 +162,7 @@ static void split(struct hm_cli *cli, struct hm_mesh *m)
     int64_t count;
     hm_cli_check(cli, hm_split_quads(m, &count, &d), &d);
     if (count > 0)
-        hm_cli_say(cli, "%lld quadrilaterals split into triangles", (long long)count);
+        hm_cli_say(cli, "%s split into triangles", hm_cli_counted(count, "quadrilateral").text);
 }
 
 static int64_t count_strings(const struct hm_mesh *m)

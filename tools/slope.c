@@ -238,8 +238,8 @@ int main(int argc, char **argv)
     if (sloped > 0 && done == 0)
         hm_cli_die(cli, "no grid without a band slope: it is there already");
     if (sloped > 0)
-        hm_cli_say(cli, "left out %zu %s that had a band slope already", sloped,
-                   sloped > 1 ? "grids" : "grid");
+        hm_cli_say(cli, "left out %s that had a band slope already",
+                   hm_cli_counted((int64_t)sloped, "grid").text);
     if (done == 0)
         hm_cli_die(cli, "no grid in the input");
     return hm_cli_finish(cli);

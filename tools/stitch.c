@@ -239,16 +239,15 @@ static void find_strings(struct hm_cli *cli, const struct hm_inputs *in, const s
     char *name = NULL;
     if (strings->n > 0)
         hm_cli_check(cli, hm_strings_drop_broken(strings, m, &dropped, &name, &d), &d);
-    hm_cli_mended(cli, dropped,
-                  "%lld strings that no longer run along the boundary are dropped, first '%s'",
-                  (long long)dropped, name ? name : "");
+    hm_cli_mended(cli, dropped, "%s that no longer run along the boundary dropped, first '%s'",
+                  hm_cli_counted(dropped, "string").text, name ? name : "");
     free(name);
     size_t kept = strings->n;
     if (in->nlines > 0)
         hm_cli_check(cli, hm_strings_find(strings, m, in->lines, in->nlines, &kept, &d), &d);
     for (size_t i = kept; i < strings->n; i++)
-        hm_cli_say(cli, "string %s: %zu edges of the boundary", strings->string[i].name,
-                   strings->string[i].n - 1);
+        hm_cli_say(cli, "string %s: %s of the boundary", strings->string[i].name,
+                   hm_cli_counted((int64_t)strings->string[i].n - 1, "edge").text);
 }
 
 static void renumber(struct hm_cli *cli, struct hm_mesh *m, struct hm_strings *strings)

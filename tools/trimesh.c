@@ -149,34 +149,31 @@ static void say_mend(void *cli, enum hm_tri_mend what, double x, double y)
 
 static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
 {
-    hm_cli_mended(cli, c->duplicates,
-                  "%lld measurements at a node of a line or a regular mesh left out",
-                  (long long)c->duplicates);
+    hm_cli_mended(cli, c->duplicates, "%s at a node of a line or a regular mesh left out",
+                  hm_cli_counted(c->duplicates, "measurement").text);
     hm_cli_mended(cli, c->crossings + c->on_lines + c->overlaps + c->zero_length,
-                  "lines mended: %lld crossings, %lld nodes on a line, %lld pieces drawn twice, "
-                  "%lld without length",
-                  (long long)c->crossings, (long long)c->on_lines, (long long)c->overlaps,
-                  (long long)c->zero_length);
+                  "lines mended: %s, %s on a line, %s drawn twice, %lld without length",
+                  hm_cli_counted(c->crossings, "crossing").text,
+                  hm_cli_counted(c->on_lines, "node").text,
+                  hm_cli_counted(c->overlaps, "piece").text, (long long)c->zero_length);
     if (c->near_points > 0 && cmd.method != QUALITY)
-        hm_cli_say(cli, "%lld measurements within %g m of a regular mesh's boundary left out",
-                   (long long)c->near_points, cmd.clearance);
+        hm_cli_say(cli, "%s within %g m of a regular mesh's boundary left out",
+                   hm_cli_counted(c->near_points, "measurement").text, cmd.clearance);
     if (c->outside_points > 0)
-        hm_cli_say(cli, "%lld measurements outside the domain give heights only",
-                   (long long)c->outside_points);
+        hm_cli_say(cli, "%s outside the domain, for heights only",
+                   hm_cli_counted(c->outside_points, "measurement").text);
     if (c->cut_lines > 0)
-        hm_cli_say(cli,
-                   "%lld of %lld breaklines cut: %.0f of %.0f m inside a regular mesh or within "
-                   "%g m of it",
-                   (long long)c->cut_lines, (long long)c->breaklines, c->near_length, c->length,
-                   cmd.clearance);
+        hm_cli_say(cli, "%lld of %s cut: %.0f of %.0f m inside a regular mesh or within %g m of it",
+                   (long long)c->cut_lines, hm_cli_counted(c->breaklines, "breakline").text,
+                   c->near_length, c->length, cmd.clearance);
     if (c->outside_length > 0)
         hm_cli_say(cli, "%.0f of %.0f m of breaklines outside the domain left out",
                    c->outside_length, c->length);
     if (c->idle_holes > 0)
-        hm_cli_say(cli, "%lld holes outside the outline", (long long)c->idle_holes);
+        hm_cli_say(cli, "%s outside the outline", hm_cli_counted(c->idle_holes, "hole").text);
     if (c->line_heights > 0)
-        hm_cli_say(cli, "%lld vertices of breaklines get their height from the terrain",
-                   (long long)c->line_heights);
+        hm_cli_say(cli, "%s of breaklines with their height from the terrain",
+                   hm_cli_counted(c->line_heights, "vertex").text);
     if (cmd.method == PAPER && c->median_segment > 0 && c->median_segment < cmd.min_edge / 2)
         hm_cli_say(
             cli,
@@ -188,15 +185,17 @@ static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
 static void say_left(struct hm_cli *cli, const struct hm_paper_left *left)
 {
     if (left->too_short > 0)
-        hm_cli_say(cli, "%lld edges under %g m are left, %lld of them between fixed nodes",
-                   (long long)left->too_short, cmd.min_edge, (long long)left->too_short_fixed);
+        hm_cli_say(cli, "%s under %g m left, %lld of them between fixed nodes",
+                   hm_cli_counted(left->too_short, "edge").text, cmd.min_edge,
+                   (long long)left->too_short_fixed);
     if (left->too_long > 0)
-        hm_cli_say(cli, "%lld edges over %g m are left, %lld of them at regular meshes",
-                   (long long)left->too_long, cmd.max_edge, (long long)left->too_long_regular);
+        hm_cli_say(cli, "%s over %g m left, %lld of them at regular meshes",
+                   hm_cli_counted(left->too_long, "edge").text, cmd.max_edge,
+                   (long long)left->too_long_regular);
     if (left->fixed_short + left->fixed_long > 0)
-        hm_cli_say(cli,
-                   "of the edges that are fixed %lld are under the minimum, %lld over the maximum",
-                   (long long)left->fixed_short, (long long)left->fixed_long);
+        hm_cli_say(cli, "%s under the minimum, %lld over the maximum",
+                   hm_cli_counted(left->fixed_short, "fixed edge").text,
+                   (long long)left->fixed_long);
 }
 
 /* --- steps --- */
@@ -275,9 +274,9 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                  &d);
     if (trimmed > 0)
         hm_cli_say(cli,
-                   "%lld vertices of breaklines left out: nearer than %g m to a crossing, or loose "
+                   "%s of breaklines left out: nearer than %g m to a crossing, or loose "
                    "ends to an outline",
-                   (long long)trimmed, cmd.clearance);
+                   hm_cli_counted(trimmed, "vertex").text, cmd.clearance);
 }
 
 static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
@@ -304,12 +303,13 @@ static void say_refined(struct hm_cli *cli, const struct hm_tri_refined *r)
 {
     if (r->small > 0)
         hm_cli_say(cli,
-                   "%lld elements under %g degrees are left, at small angles of the lines or at "
+                   "%s under %g degrees left, at small angles of the lines or at "
                    "regular meshes; the smallest, %.3g degrees, at %.10g %.10g",
-                   (long long)r->small, cmd.min_angle, r->smallest, r->x, r->y);
+                   hm_cli_counted(r->small, "element").text, cmd.min_angle, r->smallest, r->x,
+                   r->y);
     if (r->large > 0)
-        hm_cli_say(cli, "%lld elements over their maximum area are left, at regular meshes",
-                   (long long)r->large);
+        hm_cli_say(cli, "%s over the maximum area left, at regular meshes",
+                   hm_cli_counted(r->large, "element").text);
 }
 
 static void bring_to_angles(struct hm_cli *cli, struct hm_domain *dom)
@@ -360,7 +360,8 @@ int main(int argc, char **argv)
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
     hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);
     if (hm_cli_verbose(cli))
-        hm_cli_say(cli, "%zu nodes, %zu elements", mesh.nnodes, mesh.nelems);
+        hm_cli_say(cli, "%s, %s", hm_cli_counted((int64_t)mesh.nnodes, "node").text,
+                   hm_cli_counted((int64_t)mesh.nelems, "element").text);
     hm_mesh_free(&mesh);
     hm_domain_free(&dom);
     hm_terrain_free(terrain);

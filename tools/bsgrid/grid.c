@@ -148,8 +148,8 @@ static double *put_node(const struct survey *s, const struct hm_bsurf *b, const 
 static void say_odd_nodes(struct hm_cli *cli, const struct survey *s, const struct nodes *n)
 {
     if (n->overflowed > 0)
-        hm_cli_say(cli, "warning: the heights around %zu nodes are too large to reckon with",
-                   n->overflowed);
+        hm_cli_say(cli, "warning: the heights around %s are too large to reckon with",
+                   hm_cli_counted((int64_t)n->overflowed, "node").text);
     else if (n->empty == s->fine.nx * s->fine.ny)
         hm_cli_say(cli, "warning: no node has a height: see the gap limit (-g), %s%s",
                    cmd.region ? "the window (-R), " : "",
@@ -181,8 +181,8 @@ static void write_rows(struct hm_cli *cli, const struct survey *s, const struct 
         hm_cli_progress(cli, "writing", (double)(p.j - s->fine.j0 + 1) / (double)s->fine.ny);
     }
     hm_cli_check(cli, hm_writer_end(hm_cli_writer(cli), &d), &d);
-    hm_cli_say(cli, "%lld points, %zu x %zu nodes, %zu of them empty (nan)", (long long)s->used,
-               s->fine.nx, s->fine.ny, nodes.empty);
+    hm_cli_say(cli, "%s, %zu x %zu nodes, %zu of them empty (nan)",
+               hm_cli_counted(s->used, "point").text, s->fine.nx, s->fine.ny, nodes.empty);
     say_odd_nodes(cli, s, &nodes);
     free(z);
     free(row);

@@ -57,8 +57,9 @@ struct hm_program {
     const char *purpose;  /* one line */
     const char *operands; /* for the synopsis: "[file …]" */
     const struct hm_option *options;
-    int needs;           /* hm_kind bits it takes from its operands; others are dropped aloud */
-    bool degrees_ok;     /* longitude and latitude are not refused */
+    int needs; /* hm_kind bits it takes from its operands; others are dropped aloud */
+    const struct hm_foreign *foreign; /* formats that it reads besides (hm_import), or NULL */
+    bool degrees_ok;                  /* longitude and latitude are not refused */
     const char *without; /* letters of the common options that mean nothing to it: "bpK", NULL */
 };
 

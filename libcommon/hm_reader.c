@@ -61,6 +61,11 @@ void hm_reader_strict(struct hm_reader *r, bool strict)
     r->strict = strict;
 }
 
+void hm_reader_foreign(struct hm_reader *r, const struct hm_foreign *list)
+{
+    r->foreign = list;
+}
+
 const char *hm_reader_name(const struct hm_reader *r)
 {
     return r->in.name;
@@ -144,6 +149,16 @@ static enum hm_err refuse_binary(struct hm_reader *r, const char *s, const char 
     return HM_OK;
 }
 
+/* The first of the formats known besides that this looks like; NULL when there is none. */
+static const struct hm_foreign *find_foreign(const struct hm_reader *r, const char *s,
+                                             const char *end)
+{
+    const struct hm_foreign *f = r->foreign;
+    while (f && f->name && !f->is(s, end))
+        f++;
+    return f && f->name ? f : NULL;
+}
+
 /* Choose the form by what stands here, looking 64 KB ahead. */
 static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
 {
@@ -157,6 +172,11 @@ static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
     const char *s = hm_input_at(&r->in), *end = s + (n < AHEAD ? n : AHEAD), *first = s;
     if (is_own(s, end)) {
         r->form = &hm_reader_text;
+        return HM_OK;
+    }
+    r->found = find_foreign(r, s, end);
+    if (r->found) {
+        r->form = &hm_reader_foreign_mesh;
         return HM_OK;
     }
     if (begins(s, end, "LASF") && hm_input_tell(&r->in) == 0) {

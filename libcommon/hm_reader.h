@@ -22,7 +22,9 @@
 #include "hm_header.h"
 
 struct hm_line;
+struct hm_elem;
 struct hm_mesh;
+struct hm_node;
 struct hm_reader;
 
 /* path "-" is standard input. *r is NULL on failure. */
@@ -33,6 +35,20 @@ void hm_reader_close(struct hm_reader *r);
 
 /* A count in a header that disagrees with the data becomes an error (it is ignored otherwise). */
 void hm_reader_strict(struct hm_reader *r, bool strict);
+
+/* A format of other programs, read whole as a mesh, for those who ask for it (hm_import). */
+struct hm_input;
+struct hm_foreign {
+    const char *name;
+    /* Do these first bytes of a file, up to 64 KB, look like it? */
+    bool (*is)(const char *s, const char *end);
+    /* All of it, into a mesh that is empty but for an initialised header. */
+    enum hm_err (*read)(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
+};
+
+/* Recognise these as well, before all others but the project's own; the list ends with a NULL
+ * name. */
+void hm_reader_foreign(struct hm_reader *r, const struct hm_foreign *list);
 
 /* Go on to the next object and give its header, which the caller frees. HM_END behind the last. An
  * input without any object is HM_EFORMAT ("empty"). */
@@ -54,5 +70,12 @@ enum hm_err hm_reader_mesh(struct hm_reader *r, struct hm_mesh *mesh, struct hm_
 
 /* The name that diagnostics use: the path, or "standard input". */
 const char *hm_reader_name(const struct hm_reader *r);
+
+/* A node, and an element of the numbers of its corners (three or four) and its region, from
+ * outside. Return NULL, or what is wrong with them. */
+const char *hm_reader_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
+                                int64_t owner);
+const char *hm_reader_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
+                                size_t nnodes);
 
 #endif

@@ -3,6 +3,7 @@
  * header. */
 #include "hm_reader_private.h"
 
+#include "hm_ids.h"
 #include "hm_row.h"
 
 #include <stdio.h>
@@ -15,15 +16,13 @@ struct string { /* a node string: where it ends in the list of all */
 
 struct mesh2dm {
     struct hm_mesh mesh; /* elements hold ids until the end */
-    int32_t *id;         /* of each node */
-    size_t id_cap;
+    struct hm_ids ids;
     int32_t *string_id; /* the nodes of all strings */
     size_t string_ids, string_id_cap;
     int64_t string_line; /* where a node of a string was last read */
     struct string *string;
     size_t strings, string_cap;
-    size_t *order; /* nodes by id, when ids are not 1, 2, 3 … */
-    int32_t none;  /* the material that stands for region 0; 0: none does */
+    int32_t none; /* the material that stands for region 0; 0: none does */
 };
 
 static void free_2dm(void *state)
@@ -33,8 +32,7 @@ static void free_2dm(void *state)
         free(m->string[i].name);
     free(m->string);
     free(m->string_id);
-    free(m->id);
-    free(m->order);
+    hm_ids_free(&m->ids);
     hm_mesh_free(&m->mesh);
     free(m);
 }
@@ -79,10 +77,8 @@ static enum hm_err read_node(struct hm_reader *r, const char *s, const char *end
     const char *why = hm_reader_make_node(&node, xyz, 0, 0);
     if (why)
         return hm_input_fail(&r->in, HM_EFORMAT, d, "%s", why);
-    if (!hm_grow(&m->id, &m->id_cap, m->mesh.nnodes + 1, sizeof *m->id))
-        return hm_fail_memory(d);
-    m->id[m->mesh.nnodes] = id;
-    return hm_mesh_add_node(&m->mesh, node, d);
+    enum hm_err err = hm_ids_add(&m->ids, id, d);
+    return err ? err : hm_mesh_add_node(&m->mesh, node, d);
 }
 
 /* `E3T id a b c material`; the material may be missing, and more may follow it. */
@@ -194,56 +190,6 @@ static enum hm_err read_card(struct hm_reader *r, struct hm_header *h, const cha
 
 /* --- from ids to numbers --- */
 
-static int compare_ids(const void *a, const void *b)
-{
-    const int32_t *const *p = a, *const *q = b;
-    return **p < **q ? -1 : **p > **q ? 1 : *p < *q ? -1 : *p > *q;
-}
-
-/* Sort the nodes by id, unless node i has the id i + 1. */
-static enum hm_err sort_ids(struct hm_reader *r, struct hm_diag *d)
-{
-    struct mesh2dm *m = r->state;
-    size_t n = m->mesh.nnodes, dense = 0;
-    while (dense < n && m->id[dense] == (int64_t)dense + 1)
-        dense++;
-    if (dense == n)
-        return HM_OK;
-    const int32_t **at = hm_alloc(n, sizeof *at);
-    m->order = hm_alloc(n, sizeof *m->order);
-    if (!at || !m->order) {
-        free(at);
-        return hm_fail_memory(d);
-    }
-    for (size_t i = 0; i < n; i++)
-        at[i] = &m->id[i];
-    qsort(at, n, sizeof *at, compare_ids);
-    enum hm_err err = HM_OK;
-    for (size_t i = 0; i < n; i++) {
-        m->order[i] = (size_t)(at[i] - m->id);
-        if (i > 0 && *at[i] == *at[i - 1] && !err)
-            err = hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "two nodes have the id %d", *at[i]);
-    }
-    free(at);
-    return err;
-}
-
-/* The number of the node with that id; -1 when there is none. */
-static int64_t find_node(const struct mesh2dm *m, int32_t id)
-{
-    size_t low = 0, high = m->mesh.nnodes;
-    if (!m->order)
-        return id >= 1 && (size_t)id <= high ? id - 1 : -1;
-    while (low < high) {
-        size_t mid = low + (high - low) / 2;
-        if (m->id[m->order[mid]] < id)
-            low = mid + 1;
-        else
-            high = mid;
-    }
-    return low < m->mesh.nnodes && m->id[m->order[low]] == id ? (int64_t)m->order[low] : -1;
-}
-
 /* The last string must have come to its end, which only a negative number is. */
 static enum hm_err check_strings(struct hm_reader *r, struct hm_diag *d)
 {
@@ -262,7 +208,7 @@ static enum hm_err number_elems(struct hm_reader *r, struct hm_diag *d)
         int corners = hm_elem_corners(e);
         int64_t numbers[5];
         for (int k = 0; k < corners; k++)
-            numbers[k] = find_node(m, e->node[k]);
+            numbers[k] = hm_ids_find(&m->ids, e->node[k]);
         numbers[corners] = e->region == m->none ? 0 : e->region;
         const char *why = hm_reader_make_elem(e, numbers, corners, m->mesh.nnodes);
         if (why)
@@ -285,7 +231,7 @@ static enum hm_err number_strings(struct hm_reader *r, struct hm_header *h, stru
             return hm_fail_memory(d);
         memcpy(value, string->name, n + 1);
         for (; k < string->end && !err; k++) {
-            int64_t node = find_node(m, m->string_id[k]);
+            int64_t node = hm_ids_find(&m->ids, m->string_id[k]);
             if (node < 0)
                 err = hm_fail_line(d, HM_EFORMAT, r->in.name, 0,
                                    "node string %s has the node %d, which is not there",
@@ -322,7 +268,7 @@ static enum hm_err begin(struct hm_reader *r, struct hm_header *h, struct hm_dia
         return err;
     err = check_strings(r, d);
     if (!err)
-        err = sort_ids(r, d);
+        err = hm_ids_sort(&((struct mesh2dm *)r->state)->ids, r->in.name, d);
     if (!err)
         err = number_elems(r, d);
     return err ? err : number_strings(r, h, d);

@@ -32,7 +32,9 @@ struct hm_reader_form {
 struct hm_reader {
     struct hm_input in;
     bool strict;
-    bool any; /* an object was found */
+    bool any;                         /* an object was found */
+    const struct hm_foreign *foreign; /* formats known besides, or NULL */
+    const struct hm_foreign *found;   /* that of this object */
 
     /* the object being read */
     const struct hm_reader_form *form; /* NULL between objects */
@@ -61,6 +63,7 @@ extern const struct hm_reader_form hm_reader_gmt;   /* GMT multisegment lines */
 extern const struct hm_reader_form hm_reader_las;
 extern const struct hm_reader_form hm_reader_ascii_grid;
 extern const struct hm_reader_form hm_reader_2dm;
+extern const struct hm_reader_form hm_reader_foreign_mesh; /* r->found */
 
 /* Does the input begin with a key of an ESRI ASCII grid? */
 bool hm_reader_is_ascii_grid(const char *s, const char *end);
@@ -80,12 +83,5 @@ static inline bool hm_reader_good_place(const double *xyz)
 }
 /* Why it cannot. */
 const char *hm_reader_bad_place(const double *xyz);
-
-/* A node, and an element of the numbers of its corners (three or four) and its region, from
- * outside. Return NULL, or what is wrong with them. */
-const char *hm_reader_make_node(struct hm_node *node, const double xyz[3], int64_t flags,
-                                int64_t owner);
-const char *hm_reader_make_elem(struct hm_elem *elem, const int64_t *numbers, int corners,
-                                size_t nnodes);
 
 #endif

@@ -241,10 +241,11 @@ $MeshFormat
 2.2 0 8
 $EndMeshFormat
 $PhysicalNames
-3
+4
 1 1 "inflow"
 1 2 "outflow"
 1 3 "wall_north"
+2 8 "region 0"
 $EndPhysicalNames
 $Nodes
 5
@@ -260,7 +261,7 @@ $Elements
 2 1 2 2 2 5 2
 3 1 2 2 2 2 1
 4 1 2 3 3 3 4
-5 3 2 0 0 1 2 3 4
+5 3 2 8 8 1 2 3 4
 6 2 2 7 7 2 5 3
 $EndElements
 END
@@ -452,7 +453,7 @@ for name, regions in (('vtk', 'region'), ('vtu', 'region'), ('ply', 'region'), (
     assert m.points[:, :2].tolist() == [[545000.5, 5972000.123456789], [545010, 5972000], [545010, 5972010], [545000, 5972010], [545020, 5972000]], name
     assert name == 'medit' or m.points[:, 2].tolist() == [1.25, 0.30000000000000004, -2e-7, 2, 12345.678], name
     cells = {c.type: (c.data.tolist(), np.ravel(d).tolist()) for c, d in zip(m.cells, m.cell_data[regions])}
-    assert cells['quad'] == ([[0, 1, 2, 3]], [0]) and cells['triangle'] == ([[1, 4, 2]], [7]), name
+    assert cells['quad'] == ([[0, 1, 2, 3]], [8 if name == 'gmsh' else 0]) and cells['triangle'] == ([[1, 4, 2]], [7]), name
 END
     for f in vtk vtu ply msh medit; do
         convert $f

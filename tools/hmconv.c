@@ -7,6 +7,7 @@
 #include "hm_copy.h"
 #include "hm_describe.h"
 #include "hm_export.h"
+#include "hm_import.h"
 #include "hm_num.h"
 #include "hm_split.h"
 
@@ -87,6 +88,7 @@ static const struct hm_program program = {.name = "hmconv",
                                           .operands = "[file ...]",
                                           .options = options,
                                           .needs = HM_ANY,
+                                          .foreign = hm_import_formats,
                                           .degrees_ok = true,
                                           .without = "K"};
 

@@ -117,16 +117,25 @@ static enum hm_err smooth(struct work *w, struct hm_diag *d)
     return HM_OK;
 }
 
-/* Refuse what could only end when memory does: about one node for each 0.43 most². */
+/* Refuse what could only end when memory does: about one node for each 0.43 most², and one for each
+ * `most` of a fixed edge. And ground so thin that its borders alone make a million nodes, a hundred
+ * times those that its area needs: a slip in the coordinates. */
 static enum hm_err check_size(const struct work *w, struct hm_diag *d)
 {
-    double area = 0, most = w->o->bounds.most;
-    for (int32_t tri = 0; tri < hm_tri_triangles(w->dom->tri); tri++)
-        area += hm_domain_area(w->dom, tri);
-    double nodes = area / (most * most) / 0.43;
-    if (nodes > (double)(INT32_MAX / 6))
-        return hm_fail(d, HM_EARG, "a maximum edge of %g m makes about %.2g nodes on %.3g m2", most,
-                       nodes, area);
+    const struct hm_domain *dom = w->dom;
+    double area = 0, length = 0, most = w->o->bounds.most;
+    for (int32_t tri = 0; tri < hm_tri_triangles(dom->tri); tri++)
+        area += hm_domain_area(dom, tri);
+    for (size_t k = 0; k < dom->nedges; k++) {
+        const struct hm_domain_edge *e = &dom->edge[k];
+        length += sqrt(hm_node_distance2(&dom->node[e->a], &dom->node[e->b]));
+    }
+    double inner = area / (most * most) / 0.43, along = length / most;
+    if (inner + along > (double)(INT32_MAX / 6) || (along > 1e6 && along > 100 * inner))
+        return hm_fail(d, HM_EARG,
+                       "a maximum edge of %g m makes about %.2g nodes on %.3g m2 and along %.3g m "
+                       "of borders and lines",
+                       most, inner + along, area, length);
     return HM_OK;
 }
 

@@ -207,3 +207,43 @@ double hm_terrain_z_nearest(const struct hm_terrain *t, double x, double y, int3
     }
     return z;
 }
+
+/* --- gaps --- */
+
+static int by_value(const void *pa, const void *pb)
+{
+    const double *a = pa, *b = pb;
+    return (*a > *b) - (*a < *b);
+}
+
+enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, struct hm_diag *d)
+{
+    enum { SAMPLE = 100000 };
+    const struct hm_tri *tri = t->tin.tri;
+    *spacing = 0;
+    if (!tri)
+        return HM_OK;
+    int32_t edges = 3 * hm_tri_triangles(tri), every = edges / SAMPLE + 1;
+    double *length2 = hm_alloc((size_t)(edges / every) + 1, sizeof *length2);
+    size_t n = 0;
+    if (!length2)
+        return hm_fail_memory(d);
+    for (int32_t e = 0; e < edges; e += every)
+        if (hm_tri_is_solid(tri, e / 3)) {
+            const double *to = hm_tri_xy(tri, hm_tri_dest(tri, e));
+            length2[n++] = distance2(hm_tri_xy(tri, hm_tri_org(tri, e)), to[0], to[1]);
+        }
+    qsort(length2, n, sizeof *length2, by_value);
+    *spacing = n > 0 ? sqrt(length2[n / 2]) : 0;
+    free(length2);
+    return HM_OK;
+}
+
+bool hm_terrain_is_gap(const struct hm_terrain *t, double x, double y, double gap, int32_t *hint)
+{
+    for (size_t k = 0; k < t->ngrids; k++)
+        if (isfinite(grid_z(&t->grid[k], x, y)))
+            return false;
+    int32_t tri = t->tin.tri ? hm_tri_locate(t->tin.tri, x, y, hint) : HM_TRI_NONE;
+    return tri == HM_TRI_NONE || hm_tin_is_gap(&t->tin, tri, gap);
+}

@@ -34,4 +34,13 @@ double hm_terrain_z(const struct hm_terrain *t, double x, double y, int32_t *hin
  * grid (NaN only when the terrain knows nothing at all). */
 double hm_terrain_z_nearest(const struct hm_terrain *t, double x, double y, int32_t *hint);
 
+/* How far apart the measurements are: the median length of the edges of their TIN (of a hundred
+ * thousand of them at most), m; 0 without measurements. HM_ENOMEM. */
+enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, struct hm_diag *d);
+
+/* Is x, y where no grid tells the height, and the measurements around are more than `gap` (m)
+ * apart?
+ */
+bool hm_terrain_is_gap(const struct hm_terrain *t, double x, double y, double gap, int32_t *hint);
+
 #endif

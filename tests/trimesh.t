@@ -151,4 +151,14 @@ must_fail "a hole of a vertex" 2 'hole has only 1 vertex at 1 1' trimesh -l 1 sq
 printf '> hole=1 closed=1\n1 1\n2 2\n' >point.txt
 must_fail "a hole of two" 2 'hole has only 2 vertices at 1 1' trimesh -l 1 square.xyz point.txt
 
+# --- ground that nobody surveyed, and ground that is none ---
+{ square 20; echo 200 0 0; echo 200 20 0; } >far.xyz
+says "half of it is a gap" '3.*e\+03 of 3.*e\+03 m2 \([89][0-9] %\) lie between measurements over 15 m apart.*boundary=1' \
+    trimesh -l 1 -L 3 far.xyz -o far.hm
+says "also for other methods" 'lie between measurements over 10' trimesh -m delaunay far.xyz -o far.hm
+trimesh -l 1 -L 3 square.xyz -o far.hm 2>said
+ok "else nothing is said" sh -c '! grep between.measurements said'
+printf '0 0 0\n1e7 0 0\n0 1e-9 0\n1e7 1e-9 1\n5e6 5e-10 3\n' >thread.xyz
+must_fail "a thread of ground" 2 'about 8e\+06 nodes on 0.01 m2 and along 2e\+07 m' timeout 20 trimesh -l 1 thread.xyz
+
 done_testing

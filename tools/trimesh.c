@@ -5,6 +5,7 @@
  */
 #include "hm_assemble.h"
 #include "hm_cli.h"
+#include "hm_elem.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
 #include "hm_ruppert.h"
@@ -336,6 +337,33 @@ static void lift(struct hm_cli *cli, const struct hm_terrain *terrain, struct hm
     }
 }
 
+/* A mesh over ground that nobody surveyed looks like any other: say how much of it there is. Gaps
+ * are ten times as wide as points are apart as a rule, and wider than what elements bridge anyway.
+ */
+static void say_gaps(struct hm_cli *cli, const struct hm_terrain *terrain, const struct hm_mesh *m)
+{
+    const double worth_saying = 0.01; /* of the area */
+    struct hm_diag d = {0};
+    double spacing, whole = 0, empty = 0;
+    int32_t hint = 0;
+    hm_cli_check(cli, hm_terrain_spacing(terrain, &spacing, &d), &d);
+    double gap = fmax(10 * spacing, cmd.method == PAPER ? 5 * cmd.max_edge : 0);
+    for (size_t k = 0; k < m->nelems && spacing > 0; k++) {
+        const int32_t *n = m->elem[k].node;
+        double x = (m->node[n[0]].x + m->node[n[1]].x + m->node[n[2]].x) / 3;
+        double y = (m->node[n[0]].y + m->node[n[1]].y + m->node[n[2]].y) / 3;
+        double area = hm_elem_area(m, &m->elem[k]);
+        whole += area;
+        if (hm_terrain_is_gap(terrain, x, y, gap, &hint))
+            empty += area;
+    }
+    if (empty > worth_saying * whole)
+        hm_cli_say(cli,
+                   "%.3g of %.3g m2 (%.0f %%) lie between measurements over %.3g m apart: an "
+                   "outline (boundary=1) can leave them out",
+                   empty, whole, 100 * empty / whole, gap);
+}
+
 int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
@@ -358,6 +386,7 @@ int main(int argc, char **argv)
     if (cmd.elevation == Z_TERRAIN)
         lift(cli, terrain, &dom);
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
+    say_gaps(cli, terrain, &mesh);
     hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);
     if (hm_cli_verbose(cli))
         hm_cli_say(cli, "%s, %s", hm_cli_counted((int64_t)mesh.nnodes, "node").text,

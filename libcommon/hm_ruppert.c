@@ -52,5 +52,5 @@ enum hm_err hm_ruppert_reach(struct hm_domain *dom, const struct hm_ruppert_opti
         return err;
     int32_t first = hm_tri_vertices(dom->tri);
     err = hm_tri_refine(dom->tri, &q, left, d);
-    return err ? err : hm_domain_adopt(dom, first, d);
+    return err ? err : hm_domain_adopt(dom, first, o->threads, d);
 }

@@ -247,3 +247,20 @@ bool hm_terrain_is_gap(const struct hm_terrain *t, double x, double y, double ga
     int32_t tri = t->tin.tri ? hm_tri_locate(t->tin.tri, x, y, hint) : HM_TRI_NONE;
     return tri == HM_TRI_NONE || hm_tin_is_gap(&t->tin, tri, gap);
 }
+
+enum hm_err hm_terrain_measurements(const struct hm_terrain *t, double **xyz, size_t *n,
+                                    struct hm_diag *d)
+{
+    int32_t hint = 0;
+    *n = t->tin.tri ? (size_t)hm_tri_vertices(t->tin.tri) : 0;
+    *xyz = hm_alloc(*n, 3 * sizeof **xyz);
+    if (!*xyz)
+        return hm_fail_memory(d);
+    for (size_t i = 0; i < *n; i++) {
+        const double *xy = hm_tri_xy(t->tin.tri, (int32_t)i);
+        double z = t->ngrids > 0 ? hm_terrain_z(t, xy[0], xy[1], &hint) : NAN;
+        memcpy(*xyz + 3 * i, (double[3]){xy[0], xy[1], isfinite(z) ? z : t->tin.z[i]},
+               3 * sizeof **xyz);
+    }
+    return HM_OK;
+}

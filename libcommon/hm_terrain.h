@@ -43,4 +43,9 @@ enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, stru
  */
 bool hm_terrain_is_gap(const struct hm_terrain *t, double x, double y, double gap, int32_t *hint);
 
+/* The places of the measurements, each once, in spatial order, with the terrain's heights: n times
+ * x, y, z, malloc'd. None when there are grids only. */
+enum hm_err hm_terrain_measurements(const struct hm_terrain *t, double **xyz, size_t *n,
+                                    struct hm_diag *d);
+
 #endif

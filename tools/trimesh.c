@@ -6,6 +6,8 @@
 #include "hm_assemble.h"
 #include "hm_cli.h"
 #include "hm_elem.h"
+#include "hm_fit.h"
+#include "hm_greedy.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
 #include "hm_ruppert.h"
@@ -19,8 +21,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum method { DELAUNAY, PAPER, QUALITY };
-enum elevation { Z_TERRAIN, Z_MEAN };
+enum method { DELAUNAY, PAPER, QUALITY, TERRAIN };
+enum elevation { Z_TERRAIN, Z_MEAN, Z_FIT };
 enum line_z { LINE_GIVEN, LINE_TERRAIN };
 
 enum { MOST_ANGLE = 34 }; /* degrees; refinement need not end beyond */
@@ -30,16 +32,17 @@ enum { MOST_ANGLE = 34 }; /* degrees; refinement need not end beyond */
 
 static struct {
     int method, elevation, line_z;
-    double min_edge, max_edge, min_angle, max_area, clearance;
-    bool min_given, max_given, angle_given, area_given, clearance_given;
+    double min_edge, max_edge, min_angle, max_area, max_error, clearance;
+    int max_nodes;
+    bool min_given, max_given, angle_given, area_given, error_given, nodes_given, clearance_given;
     int smooth;
     const char *steps;
 } cmd = {.method = PAPER, .min_angle = 20, .smooth = 5};
 
 static const struct hm_option options[] = {
     {'m', "method", "METHOD", HM_OPT_CHOICE, &cmd.method,
-     .help = "all points; edges from -l to -L; angles over -q (default paper)",
-     .choices = "delaunay|paper|quality"},
+     .help = "points; edges -l to -L; angles over -q; errors to -e (default paper)",
+     .choices = "delaunay|paper|quality|terrain"},
     {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, .help = "minimum edge length, m",
      .given = &cmd.min_given},
     {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
@@ -48,11 +51,17 @@ static const struct hm_option options[] = {
      .help = "minimum angle, at most 34 degrees (default 20)", .given = &cmd.angle_given},
     {'a', "max-area", "M2", HM_OPT_POSITIVE, &cmd.max_area,
      .help = "maximum area of an element, m2 (default: any)", .given = &cmd.area_given},
+    {'e', "max-error", "M", HM_OPT_POSITIVE, &cmd.max_error,
+     .help = "maximum vertical error at measurements, m (default: as -N allows)",
+     .given = &cmd.error_given},
+    {'N', "max-nodes", "N", HM_OPT_NATURAL, &cmd.max_nodes,
+     .help = "maximum number of nodes, before refinement (default: as -e wants)",
+     .given = &cmd.nodes_given},
     {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth,
      .help = "passes of Laplace smoothing (default 5)"},
     {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
-     .help = "heights of new nodes: terrain, or neighbours' mean (default terrain)",
-     .choices = "terrain|mean"},
+     .help = "heights: the terrain, neighbours' mean, or fitted (default terrain)",
+     .choices = "terrain|mean|fit"},
     {'C', "clearance", "M", HM_OPT_POSITIVE, &cmd.clearance,
      .help = "cut off what is nearer to a regular mesh, m (default half of -l)",
      .given = &cmd.clearance_given},
@@ -109,15 +118,20 @@ static void make_steps_folder(struct hm_cli *cli)
 
 static void check_command(struct hm_cli *cli)
 {
-    static const char *const name[] = {"delaunay", "paper", "quality"};
+    static const char *const name[] = {"delaunay", "paper", "quality", "terrain"};
+    const bool refines = cmd.method == QUALITY || cmd.method == TERRAIN;
     if (cmd.method == PAPER)
         check_lengths(cli);
     refuse(cli, cmd.method != PAPER && cmd.steps, "--steps", name[cmd.method]);
     refuse(cli, cmd.method != PAPER && cmd.elevation == Z_MEAN, "-z mean", name[cmd.method]);
-    refuse(cli, cmd.method != QUALITY && cmd.angle_given, "-q", name[cmd.method]);
-    refuse(cli, cmd.method != QUALITY && cmd.area_given, "-a", name[cmd.method]);
+    refuse(cli, !refines && cmd.angle_given, "-q", name[cmd.method]);
+    refuse(cli, !refines && cmd.area_given, "-a", name[cmd.method]);
     refuse(cli, cmd.method == QUALITY && cmd.min_given, "-l", name[cmd.method]);
     refuse(cli, cmd.method != PAPER && cmd.max_given, "-L", name[cmd.method]);
+    refuse(cli, cmd.method != TERRAIN && cmd.error_given, "-e", name[cmd.method]);
+    refuse(cli, cmd.method != TERRAIN && cmd.nodes_given, "-N", name[cmd.method]);
+    if (cmd.method == TERRAIN && !cmd.error_given && cmd.max_nodes == 0)
+        hm_cli_die(cli, "-m terrain needs a maximum error (-e) or number of nodes (-N)");
     check_angle(cli);
     /* half the minimum edge, or a quarter of the side of the largest element with equal sides */
     if (!cmd.clearance_given)
@@ -157,7 +171,7 @@ static void say_assembly(struct hm_cli *cli, const struct hm_assembly_counts *c)
                   hm_cli_counted(c->crossings, "crossing").text,
                   hm_cli_counted(c->on_lines, "node").text,
                   hm_cli_counted(c->overlaps, "piece").text, (long long)c->zero_length);
-    if (c->near_points > 0 && cmd.method != QUALITY)
+    if (c->near_points > 0 && cmd.method < QUALITY)
         hm_cli_say(cli, "%s within %g m of a regular mesh's boundary left out",
                    hm_cli_counted(c->near_points, "measurement").text, cmd.clearance);
     if (c->outside_points > 0)
@@ -263,7 +277,8 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                                          .nmeshes = in->nmeshes,
                                          .terrain = terrain,
                                          .clearance = cmd.clearance,
-                                         .heights_only = cmd.method == QUALITY,
+                                         .heights_only =
+                                             cmd.method == QUALITY || cmd.method == TERRAIN,
                                          .line_z_terrain = cmd.line_z == LINE_TERRAIN,
                                          .threads = hm_cli_threads(cli),
                                          .mended = hm_cli_verbose(cli) ? say_mend : NULL,
@@ -318,9 +333,31 @@ static void bring_to_angles(struct hm_cli *cli, struct hm_domain *dom)
     struct hm_diag d = {0};
     struct hm_tri_refined left;
     const struct hm_ruppert_options o = {
-        .min_angle = cmd.min_angle, .max_area = cmd.max_area, .threads = hm_cli_threads(cli)};
+        .min_angle = cmd.method == QUALITY || cmd.angle_given ? cmd.min_angle : 0,
+        .max_area = cmd.max_area,
+        .threads = hm_cli_threads(cli)};
     hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left, &d), &d);
     say_refined(cli, &left);
+}
+
+static void bring_to_error(struct hm_cli *cli, const double *xyz, size_t n, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_greedy_done done;
+    const struct hm_greedy_options o = {.max_error = cmd.max_error,
+                                        .max_nodes = cmd.max_nodes,
+                                        .least = cmd.min_edge,
+                                        .clearance = cmd.clearance,
+                                        .threads = hm_cli_threads(cli)};
+    hm_cli_check(cli, hm_greedy_reach(dom, xyz, n, &o, &done, &d), &d);
+    if (done.refused > 0)
+        hm_cli_say(cli, "%s too near to nodes or lines passed over",
+                   hm_cli_counted(done.refused, "measurement").text);
+    if (done.error > cmd.max_error)
+        hm_cli_say(cli, "the largest vertical error left is %.3g m, at %.10g %.10g", done.error,
+                   done.x, done.y);
+    if (cmd.angle_given || cmd.area_given)
+        bring_to_angles(cli, dom);
 }
 
 /* New and moved nodes get the terrain's height. */
@@ -364,6 +401,16 @@ static void say_gaps(struct hm_cli *cli, const struct hm_terrain *terrain, const
                    empty, whole, 100 * empty / whole, gap);
 }
 
+/* What errors are measured at, and heights fitted to. */
+static void take_measurements(struct hm_cli *cli, const struct hm_terrain *terrain, double **xyz,
+                              size_t *n)
+{
+    struct hm_diag d = {0};
+    hm_cli_check(cli, hm_terrain_measurements(terrain, xyz, n, &d), &d);
+    if (*n == 0)
+        hm_cli_die(cli, "%s needs measurements", cmd.method == TERRAIN ? "-m terrain" : "-z fit");
+}
+
 int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
@@ -382,9 +429,18 @@ int main(int argc, char **argv)
         bring_to_lengths(cli, &mesh.header, &dom);
     if (cmd.method == QUALITY)
         bring_to_angles(cli, &dom);
+    double *xyz = NULL;
+    size_t n = 0;
+    if (cmd.method == TERRAIN || cmd.elevation == Z_FIT)
+        take_measurements(cli, terrain, &xyz, &n);
+    if (cmd.method == TERRAIN)
+        bring_to_error(cli, xyz, n, &dom);
     hm_cli_stage(cli, "heights");
-    if (cmd.elevation == Z_TERRAIN)
+    if (cmd.elevation != Z_MEAN)
         lift(cli, terrain, &dom);
+    if (cmd.elevation == Z_FIT)
+        hm_cli_check(cli, hm_fit_heights(&dom, xyz, n, hm_cli_threads(cli), &d), &d);
+    free(xyz);
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
     say_gaps(cli, terrain, &mesh);
     hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);

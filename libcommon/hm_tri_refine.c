@@ -2,6 +2,7 @@
 
 #include "hm_pred.h"
 #include "hm_tri_cavity.h"
+#include "hm_tri_grade.h"
 #include "hm_tri_worklist.h"
 
 #include <float.h>
@@ -20,6 +21,7 @@ struct refine {
     struct hm_diag *d;
     struct hm_tri_worklist bad;
     struct hm_tri_cavity cavity;
+    struct hm_tri_grade grade;
     struct segment *split; /* constraints to be split, a stack */
     size_t n_split, cap_split;
     int64_t added;          /* vertices, those taken out again included */
@@ -118,15 +120,24 @@ static bool is_forced(const struct refine *r, int32_t e)
            dot * dot > r->cos2 * one * other;
 }
 
-static double largest_area(const struct refine *r, const double *a, const double *b,
-                           const double *c, int32_t tri)
+static double asked_area(const struct refine *r, double x, double y, int32_t region)
 {
     double bound = r->q->max_area > 0 ? r->q->max_area : INFINITY;
     if (r->q->area_at) {
-        double here = r->q->area_at(r->q->arg, (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3,
-                                    hm_tri_region(r->t, tri));
+        double here = r->q->area_at(r->q->arg, x, y, region);
         bound = here > 0 && here < bound ? here : bound;
     }
+    return bound;
+}
+
+static double largest_area(const struct refine *r, const double *a, const double *b,
+                           const double *c, int32_t tri)
+{
+    const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    double bound =
+        asked_area(r, (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, hm_tri_region(r->t, tri));
+    if (r->q->growth > 0)
+        bound = fmin(bound, hm_tri_grade_area(&r->grade, h[0].org, h[1].org, h[2].org));
     return bound;
 }
 
@@ -183,6 +194,29 @@ static enum hm_err check_around(struct refine *r, int32_t v)
             err = check_triangle(r, e / 3);
         e = hm_tri_turn(r->t, e);
     } while (!err && e != first);
+    return err;
+}
+
+/* The size at a new vertex; where others become smaller by it, their triangles may be too large. */
+static enum hm_err grade(struct refine *r, int32_t v)
+{
+    const struct hm_tri *t = r->t;
+    double own = INFINITY;
+    int32_t first = t->edge[v], e = first;
+    enum hm_err err = HM_OK;
+    if (!(r->q->growth > 0))
+        return HM_OK;
+    do {
+        if (is_inside(r, e / 3))
+            own = fmin(
+                own, sqrt(asked_area(r, hm_tri_at(t, v)[0], hm_tri_at(t, v)[1], t->region[e / 3]) /
+                          0.43301270189221932));
+        e = hm_tri_turn(t, e);
+    } while (e != first);
+    r->grade.n_lowered = 0;
+    err = hm_tri_grade_add(&r->grade, t, v, own, r->d);
+    for (size_t i = 1; !err && i < r->grade.n_lowered; i++) /* the first is v */
+        err = check_around(r, r->grade.lowered[i]);
     return err;
 }
 
@@ -288,6 +322,8 @@ static enum hm_err split_segment(struct refine *r, struct segment s)
         return hm_fail_memory(r->d);
     err = note_parent(r, v, parent_of(r, s));
     r->done->on_segments += !err;
+    if (!err)
+        err = grade(r, v);
     return err ? err : check_around(r, v);
 }
 
@@ -390,6 +426,8 @@ static enum hm_err split_triangle(struct refine *r, const struct hm_tri_work *wo
     if (!err)
         err = note_parent(r, v, (struct segment){HM_TRI_NONE, HM_TRI_NONE});
     r->done->inside += !err;
+    if (!err)
+        err = grade(r, v);
     for (size_t i = 0; !err && i < r->cavity.n_tri; i++)
         err = check_triangle(r, r->cavity.tri[i]);
     return err;
@@ -459,6 +497,8 @@ static enum hm_err refine(struct refine *r)
 {
     struct hm_tri_work work;
     enum hm_err err = close_outline(r);
+    if (!err && r->q->growth > 0)
+        err = hm_tri_grade_start(&r->grade, r->t, r->q->growth, r->q->outside, r->d);
     for (int32_t e = 0; !err && e < 3 * r->t->triangles; e++)
         if (is_inside(r, e / 3))
             err = check_segment(r, e);
@@ -509,7 +549,8 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
                           struct hm_tri_refined *done, struct hm_diag *d)
 {
     struct hm_tri_refined unasked;
-    if (!(q->min_angle >= 0 && q->min_angle <= 40) || !(q->max_area >= 0) || q->hull_marks == 0)
+    if (!(q->min_angle >= 0 && q->min_angle <= 40) || !(q->max_area >= 0) || !(q->growth >= 0) ||
+        q->hull_marks == 0)
         return hm_fail(d, HM_EARG, "bounds of the refinement are out of range");
     struct refine *r = hm_alloc0(1, sizeof *r);
     if (!r)
@@ -526,6 +567,7 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     if (!err)
         report(r);
     hm_tri_cavity_free(&r->cavity);
+    hm_tri_grade_free(&r->grade);
     free(r->bad.block);
     free(r->split);
     free(r->parent);

@@ -28,6 +28,11 @@ struct hm_tri_quality {
     double (*area_at)(void *arg, double x, double y, int32_t region);
     void *arg;
 
+    /* Gradation: edges get longer by no more than this a unit of the way from the shortest edges of
+     * the input and from small areas asked for (0.2: by a fifth of the way; measured along edges)
+     */
+    double growth;
+
     int32_t whole;      /* constraints with any of these marks are never split; bad triangles that
                          * would need it stay */
     int32_t outside;    /* triangles of this region are left alone: holes, and beyond the outline */

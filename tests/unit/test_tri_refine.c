@@ -191,6 +191,43 @@ static void sizes(void)
     hm_tri_free(t);
 }
 
+/* Beside a short edge triangles are small, and grow with the way from it: no slower would be
+ * needed, no faster is allowed. Sizes go along edges, which are a detour of a quarter at most here.
+ */
+static void growth(void)
+{
+    const double xy[12] = {0, 0, 100, 0, 100, 100, 0, 100, 50, 50, 50.1, 50};
+    int before = 0;
+    for (int i = 0; i < 3; i++) {
+        double rate = (double[]){0, 0.4, 0.15}[i];
+        struct hm_tri *t = polygon(xy, 4, 6);
+        struct hm_tri_quality q = {
+            .min_angle = 20, .growth = rate, .outside = -1, .hull_marks = 1, .most = 100000};
+        struct hm_tri_refined done;
+        bool good = !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) && !done.capped &&
+                    done.small == 0 && done.large == 0;
+        double worst = 0;
+        int triangles = 0;
+        for (int32_t k = 0; k < hm_tri_triangles(t); k++) {
+            if (!hm_tri_is_solid(t, k) || hm_tri_region(t, k) == -1)
+                continue;
+            double way = 0;
+            const double *p[3];
+            for (int j = 0; j < 3; j++) {
+                p[j] = hm_tri_xy(t, hm_tri_org(t, 3 * k + j));
+                way += hypot(p[j][0] - 50, p[j][1] - 50) / 3;
+            }
+            double edge = sqrt(hm_area2(p[0], p[1], p[2]) / 2 / 0.433);
+            worst = fmax(worst, edge / (0.1 + 1.25 * rate * way));
+            triangles++;
+        }
+        ok(good && (i == 0 || (worst <= 1 && triangles > 2 * before)),
+           "growth %g: %d triangles, %.2f of what is allowed", rate, triangles, worst);
+        before = triangles;
+        hm_tri_free(t);
+    }
+}
+
 /* Constraints that must stay in one piece: the long bottom edge of the shape. */
 static void whole(void)
 {
@@ -272,6 +309,7 @@ int main(void)
     corners();
     needle();
     sizes();
+    growth();
     whole();
     random_drawings();
     refusals();

@@ -405,7 +405,7 @@ static void test_refusals(void)
     refuse(&c, "not a closed line", true, "an open hole");
     start(&c, 100);
     add_line(&c, "boundary=1 closed=1", elsewhere, 3);
-    refuse(&c, "no measurement", false, "no measurement inside");
+    refuse(&c, "no measurement", true, "no measurement inside");
     start(&c, 100);
     add_line(&c, "hole=1 closed=1", (double[]){-1, -1, 201, -1, 201, 101, -1, 101}, 4);
     refuse(&c, "no ground", false, "a hole over everything");

@@ -74,6 +74,18 @@ double hm_elem_edge_ratio(const struct hm_mesh *m, const struct hm_elem *e)
     return least > 0 ? most / least : INFINITY;
 }
 
+void hm_elem_centre(const struct hm_mesh *m, const struct hm_elem *e, double xy[2])
+{
+    const double *first = hm_mesh_xy(m, e->node[0]);
+    int corners = hm_elem_corners(e);
+    double sum[2] = {0, 0}; /* from the first corner: large coordinates would cost digits */
+    for (int k = 1; k < corners; k++)
+        for (int c = 0; c < 2; c++)
+            sum[c] += hm_mesh_xy(m, e->node[k])[c] - first[c];
+    for (int c = 0; c < 2; c++)
+        xy[c] = first[c] + sum[c] / corners;
+}
+
 double hm_elem_mean_edge(const struct hm_mesh *m, const struct hm_elem *e)
 {
     double p[4][2];

@@ -15,6 +15,8 @@ double hm_elem_area(const struct hm_mesh *m, const struct hm_elem *e); /* m², <
 void hm_elem_angles(const struct hm_mesh *m, const struct hm_elem *e, double *least, double *most);
 /* Longest over shortest edge, 1 or more; infinity with an edge of length 0. */
 double hm_elem_edge_ratio(const struct hm_mesh *m, const struct hm_elem *e);
+/* The mean of its corners. */
+void hm_elem_centre(const struct hm_mesh *m, const struct hm_elem *e, double xy[2]);
 /* Mean length of its edges, m. */
 double hm_elem_mean_edge(const struct hm_mesh *m, const struct hm_elem *e);
 /* True when every corner turns left, exactly. */

@@ -1,6 +1,7 @@
 #include "hm_face.h"
 
 #include "hm_attr.h"
+#include "hm_elem.h"
 #include "hm_meshedges.h"
 #include "hm_polyline.h"
 #include "hm_role.h"
@@ -10,6 +11,18 @@
 #include <string.h>
 
 /* --- loops --- */
+
+static void measure_box(struct hm_face *f)
+{
+    for (int k = 0; k < 2; k++) {
+        f->lo[k] = INFINITY;
+        f->hi[k] = -INFINITY;
+        for (size_t i = 0; i < f->loop.n; i++) {
+            f->lo[k] = fmin(f->lo[k], f->loop.xyz[3 * i + (size_t)k]);
+            f->hi[k] = fmax(f->hi[k], f->loop.xyz[3 * i + (size_t)k]);
+        }
+    }
+}
 
 static enum hm_err check_loop(const struct hm_line *loop, const char *name, struct hm_diag *d)
 {
@@ -42,6 +55,7 @@ static enum hm_err take_loop(const struct hm_line *line, const struct hm_rough *
         face->loop.closed = true;
         face->loop.n--;
     }
+    measure_box(face);
     return check_loop(&face->loop, name, d);
 }
 
@@ -72,36 +86,20 @@ enum hm_err hm_face_collect(const struct hm_lines *sets, size_t n, const struct 
 
 /* --- inside or outside --- */
 
-struct box {
-    double lo[2], hi[2];
-};
-
-static struct box box_of(const struct hm_line *loop)
+static int side_of(const struct hm_face *f, const double *p)
 {
-    struct box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (size_t i = 0; i < loop->n; i++)
-        for (int k = 0; k < 2; k++) {
-            b.lo[k] = fmin(b.lo[k], loop->xyz[3 * i + (size_t)k]);
-            b.hi[k] = fmax(b.hi[k], loop->xyz[3 * i + (size_t)k]);
-        }
-    return b;
-}
-
-static int side_of(const struct hm_face *f, const struct box *b, const struct hm_node *p)
-{
-    if (p->x < b->lo[0] || p->x > b->hi[0] || p->y < b->lo[1] || p->y > b->hi[1])
+    if (p[0] < f->lo[0] || p[0] > f->hi[0] || p[1] < f->lo[1] || p[1] > f->hi[1])
         return -1;
-    return hm_polygon_side(&f->loop, p->x, p->y);
+    return hm_polygon_side(&f->loop, p[0], p[1]);
 }
 
-static bool is_inside(const struct hm_node *p, int32_t surface, const struct hm_face *faces,
-                      const struct box *box, size_t n)
+bool hm_face_is_inside(const double *p, int32_t surface, const struct hm_face *faces, size_t n)
 {
     bool inside = false, loops = false;
     for (size_t k = 0; k < n; k++) {
         if (faces[k].surface != surface)
             continue;
-        int side = side_of(&faces[k], &box[k], p);
+        int side = side_of(&faces[k], p);
         if (faces[k].hole && side > 0)
             return false;
         loops = loops || !faces[k].hole;
@@ -242,35 +240,56 @@ static enum hm_err drop_pinched(struct hm_mesh *m, int64_t *gone, struct hm_diag
     return err;
 }
 
+static bool element_is_inside(const struct hm_elem *e, const bool *inside)
+{
+    bool all = true;
+    for (int c = 0; c < hm_elem_corners(e); c++)
+        all = all && inside[e->node[c]];
+    return all;
+}
+
 static enum hm_err drop_outside(struct hm_mesh *mesh, int32_t surface, const struct hm_face *faces,
-                                size_t n, int64_t *dropped, struct hm_diag *d)
+                                size_t n, bool centre, int64_t *dropped, struct hm_diag *d)
 {
     bool *inside = hm_alloc(mesh->nnodes, sizeof *inside);
     bool *keep = hm_alloc(mesh->nelems, sizeof *keep);
-    struct box *box = hm_alloc(n, sizeof *box);
-    enum hm_err err = inside && keep && box ? HM_OK : hm_fail_memory(d);
-    if (!err) {
-        for (size_t k = 0; k < n; k++)
-            box[k] = box_of(&faces[k].loop);
-        for (size_t i = 0; i < mesh->nnodes; i++)
-            inside[i] = is_inside(&mesh->node[i], surface, faces, box, n);
-        for (size_t k = 0; k < mesh->nelems; k++) {
-            keep[k] = true;
-            for (int c = 0; c < hm_elem_corners(&mesh->elem[k]); c++)
-                keep[k] = keep[k] && inside[mesh->elem[k].node[c]];
-            *dropped += !keep[k];
-        }
-        err = compact(mesh, keep, d);
+    enum hm_err err = inside && keep ? HM_OK : hm_fail_memory(d);
+    for (size_t i = 0; !err && i < mesh->nnodes; i++)
+        inside[i] = hm_face_is_inside(&mesh->node[i].x, surface, faces, n);
+    for (size_t k = 0; !err && k < mesh->nelems; k++) {
+        double xy[2];
+        hm_elem_centre(mesh, &mesh->elem[k], xy);
+        keep[k] = centre ? hm_face_is_inside(xy, surface, faces, n)
+                         : element_is_inside(&mesh->elem[k], inside);
+        *dropped += !keep[k];
     }
+    if (!err)
+        err = compact(mesh, keep, d);
     free(inside);
     free(keep);
-    free(box);
     return err;
 }
 
+static enum hm_err drop_all_pinched(struct hm_mesh *mesh, int64_t *pinched, struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (int64_t gone = 1; !err && gone > 0; *pinched += err ? 0 : gone)
+        err = drop_pinched(mesh, &gone, d);
+    return err;
+}
+
+enum hm_err hm_face_keep(struct hm_mesh *mesh, const bool *keep, struct hm_face_cut *cut,
+                         struct hm_diag *d)
+{
+    size_t before = mesh->nelems;
+    enum hm_err err = compact(mesh, keep, d);
+    cut->dropped += (int64_t)(before - mesh->nelems);
+    return err ? err : drop_all_pinched(mesh, &cut->pinched, d);
+}
+
 enum hm_err hm_face_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
-                          const struct hm_face *faces, size_t nfaces, struct hm_face_cut *cut,
-                          struct hm_diag *d)
+                          const struct hm_face *faces, size_t nfaces, bool centre,
+                          struct hm_face_cut *cut, struct hm_diag *d)
 {
     *cut = (struct hm_face_cut){0};
     const double *place = NULL;
@@ -283,12 +302,9 @@ enum hm_err hm_face_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
     }
     if (!place)
         return HM_OK;
-    enum hm_err err = drop_outside(mesh, surface->number, faces, nfaces, &cut->dropped, d);
-    int64_t gone = 1;
-    while (!err && gone > 0) {
-        err = drop_pinched(mesh, &gone, d);
-        cut->pinched += err ? 0 : gone;
-    }
+    enum hm_err err = drop_outside(mesh, surface->number, faces, nfaces, centre, &cut->dropped, d);
+    if (!err)
+        err = drop_all_pinched(mesh, &cut->pinched, d);
     if (!err && mesh->nelems == 0)
         err = hm_fail_at(d, HM_EGEOM, place[0], place[1],
                          loops ? "no element of surface '%s' lies wholly inside its face loop"

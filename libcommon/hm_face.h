@@ -15,6 +15,7 @@ struct hm_face {
     struct hm_line loop; /* closed; its vertices are those of the line it was made from */
     int32_t surface;     /* number of the surface that it cuts */
     bool hole;
+    double lo[2], hi[2]; /* box of the loop */
 };
 
 /* All face loops in n sets of lines; the sets must outlive them. *faces is malloc'd. HM_EGEOM with
@@ -25,13 +26,21 @@ enum hm_err hm_face_collect(const struct hm_lines *sets, size_t n, const struct 
                             struct hm_diag *d);
 
 struct hm_face_cut {
-    int64_t dropped; /* elements with a node outside */
+    int64_t dropped; /* elements outside */
     int64_t pinched; /* elements dropped besides, where the rest hung together in a node only */
 };
 
-/* Cut the mesh of a surface by its loops; unused nodes go. HM_EGEOM when nothing is left. */
+/* Cut the mesh of a surface by its loops; unused nodes go. By the paper's rule elements go when any
+ * node is outside; with `centre`, when their centre is. HM_EGEOM when nothing is left. */
 enum hm_err hm_face_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
-                          const struct hm_face *faces, size_t nfaces, struct hm_face_cut *cut,
-                          struct hm_diag *d);
+                          const struct hm_face *faces, size_t nfaces, bool centre,
+                          struct hm_face_cut *cut, struct hm_diag *d);
+
+/* Keep only the elements marked, as a further cut: adds to *cut. */
+enum hm_err hm_face_keep(struct hm_mesh *mesh, const bool *keep, struct hm_face_cut *cut,
+                         struct hm_diag *d);
+
+/* Is a place (x, y) inside what the loops leave of a surface, by its number? */
+bool hm_face_is_inside(const double *xy, int32_t surface, const struct hm_face *faces, size_t n);
 
 #endif

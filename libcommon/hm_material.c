@@ -1,7 +1,7 @@
 #include "hm_material.h"
 
 #include "hm_attr.h"
-#include "hm_boxtree.h"
+#include "hm_elem.h"
 #include "hm_polyline.h"
 #include "hm_role.h"
 
@@ -67,18 +67,6 @@ static struct hm_box box_of(const struct hm_line *ring)
     return box;
 }
 
-static void centre_of(const struct hm_mesh *m, const struct hm_elem *e, double xy[2])
-{
-    const double *first = hm_mesh_xy(m, e->node[0]);
-    int corners = hm_elem_corners(e);
-    double sum[2] = {0, 0}; /* from the first corner: large coordinates would cost digits */
-    for (int k = 1; k < corners; k++)
-        for (int c = 0; c < 2; c++)
-            sum[c] += hm_mesh_xy(m, e->node[k])[c] - first[c];
-    for (int c = 0; c < 2; c++)
-        xy[c] = first[c] + sum[c] / corners;
-}
-
 void hm_material_apply(struct hm_mesh *m, struct hm_material *list, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
@@ -86,7 +74,7 @@ void hm_material_apply(struct hm_mesh *m, struct hm_material *list, size_t count
         list[k].elements = 0;
         for (size_t i = 0; i < m->nelems; i++) {
             double xy[2];
-            centre_of(m, &m->elem[i], xy);
+            hm_elem_centre(m, &m->elem[i], xy);
             const struct hm_box at = hm_box_of(xy, xy);
             if (!hm_box_meets(&box, &at) || hm_polygon_side(&list[k].ring, xy[0], xy[1]) < 0)
                 continue;

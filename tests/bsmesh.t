@@ -180,6 +180,43 @@ $loop
 ok "a hole in it" bsmesh -o h.hm -c 10/8 -e 10/4 hole.txt plane.xyz
 true_that "nothing inside" "$(most h.hm '$1 > 70 && $1 < 120 && $2 > 10 && $2 < 35') == 0"
 
+# --- the cut moved onto its loop: a slanted strip, and a hole ---
+
+slanted='> face=main closed=1
+30 -10 0
+60 -10 0
+270 30 0
+262 50 0
+220 50 0'
+lines "$rough
+$banks
+$slanted" >slanted.txt
+ok "fitted to the loop" bsmesh -F -o fit.hm -c 10/8 -e 5/4 slanted.txt plane.xyz
+grep -Eq 'main: [0-9]+ nodes of the cut moved onto the face loop, the furthest [0-9.]+ m; [0-9]+ stay' tap.err
+report $? "which is said: $(grep 'of the cut' tap.err)"
+# beside FILE: border nodes off the banks further than 1 cm from the sloping edges of the loop, and the
+# smallest area
+beside() {
+    nodes "$1" | awk '$4 % 2 && $2 > -2.9 && $2 < 43.9 { a = $2 + 10 - ($1 - 60) * 40 / 210; b = $2 + 10 - ($1 - 30) * 60 / 190
+        c = ($1 - 270) * 20 + ($2 - 30) * 8
+        if (a ^ 2 > 1e-4 && b ^ 2 > 1e-4 && c ^ 2 > .05) n++ } END { print n + 0 }'
+}
+true_that "most nodes of the cut lie on the loop" "$(beside fit.hm) <= 20"
+true_that "without -F they do not" "$(bsmesh -c 10/8 -e 5/4 slanted.txt plane.xyz 2>/dev/null >saw.hm; beside saw.hm) > 60"
+true_that "on the plane" "$(most fit.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-18"
+true_that "counter-clockwise" "$(area fit.hm | cut -d' ' -f2) > 0.5"
+ok "a mesh without fault" sh -c 'stitch fit.hm >/dev/null'
+ok "quadrilaterals too" sh -c 'bsmesh -F -Q -c 10/8 -e 5/4 slanted.txt plane.xyz >fit.hm 2>/dev/null && stitch fit.hm >/dev/null'
+ok "round a hole" sh -c 'bsmesh -F -c 10/8 -e 5/4 hole.txt plane.xyz >fit.hm 2>/dev/null && stitch fit.hm >/dev/null'
+true_that "which stays empty" "$(most fit.hm '$1 > 71 && $1 < 119 && $2 > 11 && $2 < 34') == 0"
+
+lines "$rough
+> face=main closed=1
+100 10 0
+100.2 10 0
+100 10.2 0" >tiny.txt
+must_fail "a loop too small for -F" 2 "surface 'main'" bsmesh -F -c 10/8 -e 5/4 tiny.txt plane.xyz
+
 # --- gaps in the terrain ---
 
 awk '!($1 > 100 && $1 < 200 && $2 > 0 && $2 < 50)' plane.xyz >gap.xyz

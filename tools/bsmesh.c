@@ -1,6 +1,6 @@
 /* bsmesh: rough banks, breaklines and terrain → a regular mesh a surface, on B-spline surfaces. */
 #include "hm_cli.h"
-#include "hm_face.h"
+#include "hm_facefit.h"
 #include "hm_regular.h"
 #include "hm_rough.h"
 #include "hm_snap.h"
@@ -19,6 +19,7 @@ static struct {
     int degree; /* index of the choice: degree - 1 */
     int iterations;
     double gap;
+    bool fit;
     const char *surface;
 } cmd = {.degree = 1, .iterations = 5};
 
@@ -37,6 +38,8 @@ static const struct hm_option options[] = {
      .help = "iterations of dragging to the terrain (default 5; fewer smooth more)"},
     {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
      .help = "wider gaps between points give no height, m (default 5 ALONG)"},
+    {'F', "fit-face", NULL, HM_OPT_FLAG, &cmd.fit,
+     .help = "move the nodes of a cut onto the face loop"},
     {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface,
      .help = "make only this surface (default: all)"},
     {0}};
@@ -141,7 +144,7 @@ static void tell_moves(struct hm_cli *cli, const struct job *job, const struct h
 
 static void tell(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
                  const struct hm_regular *s, const struct hm_face_cut *cut,
-                 const struct hm_mesh *mesh)
+                 const struct hm_facefit *fit, const struct hm_mesh *mesh)
 {
     size_t n = s->surface.n, m = s->surface.m;
     tell_moves(cli, job, rough, s);
@@ -155,6 +158,11 @@ static void tell(struct hm_cli *cli, const struct job *job, const struct hm_roug
     if (cut->dropped > 0)
         hm_cli_say(cli, "%s: %lld elements outside the face dropped", rough->name,
                    (long long)cut->dropped);
+    if (fit->moved + fit->off > 0)
+        hm_cli_say(cli,
+                   "%s: %lld nodes of the cut moved onto the face loop, the furthest %.2f m; %lld "
+                   "stay beside it",
+                   rough->name, (long long)fit->moved, fit->furthest, (long long)fit->off);
     hm_cli_mended(cli, cut->pinched, "%s: %lld more where elements hung together in one node only",
                   rough->name, (long long)cut->pinched);
     hm_cli_say(cli, "%s: %zu by %zu control points, %zu nodes, %zu elements", rough->name, n, m,
@@ -185,12 +193,16 @@ static void mesh_surface(struct hm_cli *cli, const struct job *job, const struct
     struct hm_diag d = {0};
     struct hm_regular s;
     struct hm_face_cut cut;
+    struct hm_facefit fit = {0};
     hm_cli_check(cli, hm_regular_surface(&s, rough, job->breaklines, job->terrain, &job->how, &d),
                  &d);
     hm_cli_check(cli, hm_regular_mesh(&s, rough, &job->how, mesh, &d), &d);
-    hm_cli_check(cli, hm_face_apply(mesh, rough, job->face, job->nfaces, &cut, &d), &d);
+    enum hm_err err = cmd.fit
+                          ? hm_facefit_apply(mesh, rough, job->face, job->nfaces, &cut, &fit, &d)
+                          : hm_face_apply(mesh, rough, job->face, job->nfaces, false, &cut, &d);
+    hm_cli_check(cli, err, &d);
     hm_cli_check(cli, hm_regular_flag_border(mesh, &d), &d);
-    tell(cli, job, rough, &s, &cut, mesh);
+    tell(cli, job, rough, &s, &cut, &fit, mesh);
     make_header(cli, job, rough, &mesh->header);
     hm_regular_free(&s);
 }

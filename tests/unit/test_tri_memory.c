@@ -34,11 +34,29 @@ static void *meagre_realloc(void *old, size_t bytes)
 #undef calloc
 #undef realloc
 
-#include "hm_tri.h"
+#include "hm_tri_refine.h"
 #include "tap.h"
 #include "tri_points.h"
 
 enum { N = 200 };
+
+/* A few vertices by refinement, with a size for each place and gradation. */
+static double area_at(void *arg, double x, double y, int32_t region)
+{
+    (void)arg, (void)y, (void)region;
+    return x < 0.5 ? 0.002 : 0.01;
+}
+
+static enum hm_err refine(struct hm_tri *t, struct hm_diag *d)
+{
+    struct hm_tri_quality q = {.min_angle = 20,
+                               .area_at = area_at,
+                               .growth = 0.3,
+                               .hull_marks = 1,
+                               .outside = 7,
+                               .most = 300};
+    return hm_tri_refine(t, &q, NULL, d);
+}
 
 /* All that can be done to a triangulation; returns the first error, HM_OK when it got to the end.
  */
@@ -56,6 +74,8 @@ static enum hm_err exercise(struct hm_tri *t, const double *xy, struct hm_diag *
     struct hm_tri_components c;
     if (!err && !(err = hm_tri_components(t, 1, &c, d)))
         hm_tri_components_free(&c);
+    if (!err)
+        err = refine(t, d);
     for (int32_t e = 0; !err && e < 60; e++)
         err = hm_tri_unmark(t, e, 1, d);
     for (int i = 0; !err && i < 400; i++) {

@@ -78,15 +78,19 @@ static enum hm_err merge_equal(struct build *b, struct hm_diag *d)
     return HM_OK;
 }
 
+/* With room for a few vertices more, which costs no memory while nobody writes there: the handful
+ * that crossing constraints make shall not move a million. */
 static enum hm_err allocate(struct hm_tri *t, struct hm_diag *d)
 {
-    size_t n = t->n_input;
-    t->half = hm_alloc(6 * n, sizeof *t->half);
-    t->xy = hm_alloc(2 * n, sizeof *t->xy);
-    t->input = hm_alloc(n, sizeof *t->input);
+    size_t n = t->n_input, room = n + n / 32 + 16;
+    if (room > HM_TRI_MOST_VERTICES)
+        room = HM_TRI_MOST_VERTICES;
+    t->half = hm_alloc(6 * room, sizeof *t->half);
+    t->xy = hm_alloc(2 * room, sizeof *t->xy);
+    t->input = hm_alloc(room, sizeof *t->input);
     t->of_input = hm_alloc(n, sizeof *t->of_input);
-    t->cap_vertices = n;
-    t->cap_triangles = 2 * n;
+    t->cap_vertices = room;
+    t->cap_triangles = 2 * room;
     return t->half && t->xy && t->input && t->of_input ? HM_OK : hm_fail_memory(d);
 }
 

@@ -110,9 +110,11 @@ enum hm_err hm_tri_need_edges(struct hm_tri *t, struct hm_diag *d)
     t->edge = hm_alloc(t->cap_vertices, sizeof *t->edge);
     if (!t->edge)
         return hm_fail_memory(d);
-    for (int32_t e = 0; e < 3 * t->triangles; e++)
-        if (t->half[e].org != HM_TRI_INFINITY)
-            t->edge[t->half[e].org] = e;
+    const struct hm_tri_half *half = t->half;
+    int32_t *edge = t->edge;
+    for (int32_t e = 0, n = 3 * t->triangles; e < n; e++)
+        if (half[e].org != HM_TRI_INFINITY)
+            edge[half[e].org] = e;
     return HM_OK;
 }
 

@@ -158,7 +158,7 @@ static int64_t move_pass(struct hm_mesh *mesh, const struct around *around, int3
         double place[2], part = 0;
         if (!cut[v])
             continue;
-        double apart = nearest_place(&mesh->node[v].x, surface, faces, n, place);
+        double apart = nearest_place(hm_mesh_xy(mesh, (int32_t)v), surface, faces, n, place);
         if (apart <= size_around(mesh, around, v))
             part = move_node(mesh, around, v, place);
         cut[v] = part < 1;

@@ -207,18 +207,18 @@ static enum hm_err try_vertex(struct infill *f, const int32_t triangle[3], const
  * 60 degrees is there (off-centres, Üngör 2004), its circumcentre, its centre. */
 static void list_places(const struct hm_tri *t, int32_t tri, double place[4][2])
 {
-    const double *p[3], *a = NULL, *b = NULL, *c = NULL;
+    const double *p[3];
     double least = INFINITY;
+    int shortest = 0;
     corners(t, tri, p);
     for (int k = 0; k < 3; k++) {
         double length = hypot(p[(k + 1) % 3][0] - p[k][0], p[(k + 1) % 3][1] - p[k][1]);
         if (length < least) {
             least = length;
-            a = p[k];
-            b = p[(k + 1) % 3];
-            c = p[(k + 2) % 3];
+            shortest = k;
         }
     }
+    const double *a = p[shortest], *b = p[(shortest + 1) % 3], *c = p[(shortest + 2) % 3];
     const double u[2] = {b[0] - a[0], b[1] - a[1]}, w[2] = {c[0] - a[0], c[1] - a[1]};
     const double cross = u[0] * w[1] - u[1] * w[0];
     /* the circumcentre lies on the bisector of a–b, `far` times its length above it */

@@ -29,10 +29,4 @@ void hm_anchor_grow(struct hm_anchor *a, int64_t cells);
 /* The same nodes as a grid's header says them. */
 struct hm_lattice hm_anchor_lattice(const struct hm_anchor *a);
 
-/* Place of a coordinate counted in nodes of the whole lattice (not from i0). */
-static inline double hm_anchor_place(const struct hm_anchor *a, double coordinate)
-{
-    return coordinate / a->spacing;
-}
-
 #endif

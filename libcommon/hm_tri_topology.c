@@ -138,16 +138,23 @@ static bool regrow(void *items, size_t cap, size_t room, size_t size)
     return hm_grow(items, &cap, room, size);
 }
 
+/* A capacity that holds `need` items, with half as much to spare if `most` allows; 0: it does not
+ * allow them at all. */
+static size_t room_for(size_t need, size_t most)
+{
+    if (need > most)
+        return 0;
+    return need + need / 2 < most ? need + need / 2 : most;
+}
+
 enum hm_err hm_tri_need_triangles(struct hm_tri *t, int32_t more, struct hm_diag *d)
 {
     size_t need = (size_t)t->triangles + (size_t)more;
     if (need <= t->cap_triangles)
         return HM_OK;
-    if (need > HM_TRI_MOST_TRIANGLES)
+    size_t room = room_for(need, HM_TRI_MOST_TRIANGLES);
+    if (room == 0)
         return hm_fail(d, HM_ENOMEM, "too many triangles for one triangulation");
-    size_t room = need + need / 2;
-    if (room > HM_TRI_MOST_TRIANGLES)
-        room = HM_TRI_MOST_TRIANGLES;
     if (!regrow(&t->half, 3 * t->cap_triangles, 3 * room, sizeof *t->half) ||
         (t->marks && !regrow(&t->marks, 3 * t->cap_triangles, 3 * room, sizeof *t->marks)) ||
         (t->region && !regrow(&t->region, t->cap_triangles, room, sizeof *t->region)))
@@ -161,11 +168,9 @@ enum hm_err hm_tri_need_vertices(struct hm_tri *t, int32_t more, struct hm_diag 
     size_t need = (size_t)t->vertices + (size_t)more;
     if (need <= t->cap_vertices)
         return HM_OK;
-    if (need > HM_TRI_MOST_VERTICES)
+    size_t room = room_for(need, HM_TRI_MOST_VERTICES);
+    if (room == 0)
         return hm_fail(d, HM_ENOMEM, "too many vertices for one triangulation");
-    size_t room = need + need / 2;
-    if (room > HM_TRI_MOST_VERTICES)
-        room = HM_TRI_MOST_VERTICES;
     if (!regrow(&t->xy, 2 * t->cap_vertices, 2 * room, sizeof *t->xy) ||
         !regrow(&t->edge, t->cap_vertices, room, sizeof *t->edge) ||
         !regrow(&t->input, t->cap_vertices, room, sizeof *t->input))

@@ -25,24 +25,47 @@ static bool overlaps(const struct sides *s, const struct hm_elem *e)
     return false;
 }
 
-/* Distance between an element and the segment a–b, and the middle of the shortest way. */
+/* Distance between an element and the segment a–b. */
 static double distance(const struct hm_mesh *m, const struct hm_elem *e, const double *a,
-                       const double *b, double middle[2])
+                       const double *b)
 {
-    double p[4][2];
+    double p[4][2], middle[2], least = INFINITY;
     int n = hm_elem_xy(m, e, p);
     if (hm_elem_holds(m, e, a[0], a[1]))
         return 0;
-    double least = INFINITY;
-    for (int i = 0; i < n; i++) {
-        double halfway[2], apart = hm_plane_gap(p[i], p[(i + 1) % n], a, b, halfway);
-        if (apart < least) {
-            least = apart;
-            middle[0] = halfway[0];
-            middle[1] = halfway[1];
-        }
-    }
+    for (int i = 0; i < n; i++)
+        least = fmin(least, hm_plane_gap(p[i], p[(i + 1) % n], a, b, middle));
     return least;
+}
+
+/* Does the way from p to its foot on a–b, shorter than `reach`, lead from the element through ground
+ * of the lower mesh? */
+static bool leads(const struct sides *s, const struct hm_elem *e, const double *p, const double *a,
+                  const double *b, double reach)
+{
+    double t = hm_plane_foot(p, a, b);
+    const double way[2] = {a[0] + t * (b[0] - a[0]) - p[0], a[1] + t * (b[1] - a[1]) - p[1]};
+    bool ours = hypot(way[0], way[1]) < reach;
+    for (int k = 1; ours && k < 4; k++) {
+        double x = p[0] + way[0] * k / 4, y = p[1] + way[1] * k / 4;
+        ours = !hm_elem_holds(s->lower, e, x, y) && hm_locate_element(s->in_lower, x, y) >= 0;
+    }
+    return ours;
+}
+
+/* Is the element nearer than `reach` to the border's edge a–b, by any of the ways that begin or end
+ * in a corner? Not only by the shortest one: where a bank meets the border that may lead over the
+ * ground beside the bank. */
+static bool comes_near(const struct sides *s, const struct hm_elem *e, const double *a,
+                       const double *b, double reach)
+{
+    double p[4][2];
+    int n = hm_elem_xy(s->lower, e, p);
+    bool near = false;
+    for (int i = 0; i < n && !near; i++)
+        near = leads(s, e, p[i], a, b, reach) || leads(s, e, a, p[i], p[(i + 1) % n], reach) ||
+               leads(s, e, b, p[i], p[(i + 1) % n], reach);
+    return near;
 }
 
 /* Is the element too near to the border? Sees, too, whether it touches it: then it is. A border
@@ -55,16 +78,14 @@ static bool is_near(const struct sides *s, const struct hm_elem *e, bool *touche
     struct hm_boxquery q = hm_boxtree_find(
         s->higher->tree, hm_box_grown(hm_elem_box(s->lower, e), fmax(reach, touch)));
     for (int32_t k; !touched && (k = hm_boxtree_next(&q)) >= 0;) {
-        size_t i = (size_t)k;
-        double middle[2] = {0}, own = HM_CUT_REACH * fmax(length, hm_border_length(s->higher, i));
-        double apart =
-            distance(s->lower, e, hm_border_from(s->higher, i), hm_border_to(s->higher, i), middle);
-        touched = apart <= touch;
-        near = near || (apart < (s->buffer >= 0 ? s->buffer : own) && !touched &&
-                        hm_locate_element(s->in_lower, middle[0], middle[1]) >= 0);
+        const double *a = hm_border_from(s->higher, (size_t)k);
+        const double *b = hm_border_to(s->higher, (size_t)k);
+        double own = HM_CUT_REACH * fmax(length, hm_border_length(s->higher, (size_t)k));
+        touched = distance(s->lower, e, a, b) <= touch;
+        near = near || touched || comes_near(s, e, a, b, s->buffer >= 0 ? s->buffer : own);
     }
     *touches |= touched;
-    return near || touched;
+    return near;
 }
 
 /* What the cut leaves of each element: the edges it opened, and the neighbours still there. */

@@ -216,7 +216,7 @@ static int objection(const struct hm_crossing *x, const struct tail *t, size_t j
     if (inside < notch_degrees)
         against += inside < notch_degrees / 2 ? 5 : 2; /* a needle is worse than a bank bent */
     if (!s->kept[last] && hm_border_is_near(s->higher, p, HM_SIDES_CLEAR, s->size[last]))
-        against += 1;
+        against += hm_border_is_near(s->higher, p, HM_SIDES_CLEAR / 2, s->size[last]) ? 3 : 1;
     return against;
 }
 

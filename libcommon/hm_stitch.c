@@ -1,15 +1,13 @@
 #include "hm_stitch.h"
 
 #include "hm_cut.h"
+#include "hm_elem.h"
 #include "hm_plane.h"
 #include "hm_seam.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A gap with triangles under this many degrees is widened, if that helps. */
-static const double poor_angle = 15;
 
 /* Does p lie on the segment a–b, exactly, and not at an end? */
 static bool is_between(const double *p, const double *a, const double *b)
@@ -52,6 +50,17 @@ static enum hm_err gap_node(struct hm_join *j, struct hm_node node,
     return hm_join_node(j, node, number, d);
 }
 
+static enum hm_err note_poor(struct hm_stitched *s, const struct hm_mesh *m,
+                             const struct hm_elem *e, double angle, struct hm_diag *d)
+{
+    if (!hm_grow(&s->poor, &s->poor_cap, s->npoor + 1, sizeof *s->poor))
+        return hm_fail_memory(d);
+    struct hm_stitch_poor *poor = &s->poor[s->npoor++];
+    poor->angle = angle;
+    hm_elem_centre(m, e, poor->centre);
+    return HM_OK;
+}
+
 static enum hm_err add_gap(struct hm_join *j, const struct hm_seam *seam,
                            const struct hm_mesh *lower, const struct hm_terrain *terrain,
                            int32_t *map, struct hm_stitched *s, struct hm_diag *d)
@@ -76,6 +85,8 @@ static enum hm_err add_gap(struct hm_join *j, const struct hm_seam *seam,
         }
         if (!err)
             err = hm_mesh_add_elem(&j->mesh, e, d);
+        if (!err && t->angle < HM_STITCH_POOR)
+            err = note_poor(s, &j->mesh, &e, t->angle, d);
     }
     free(fresh);
     return err;
@@ -148,23 +159,35 @@ static double shortfall(const struct hm_seam *seam)
 {
     double sum = 0;
     for (size_t i = 0; i < seam->n; i++)
-        sum += fmax(0, poor_angle - seam->triangle[i].angle);
+        sum += fmax(0, HM_STITCH_POOR - seam->triangle[i].angle);
     return sum;
 }
 
-/* Cut the elements that stay at the corners of poor triangles, into `wider`. */
-static enum hm_err widen_cut(struct hm_cut *wider, const struct hm_cut *cut,
-                             const struct hm_seam *seam, const struct hm_mesh *lower, int64_t *more,
-                             struct hm_diag *d)
+/* A cut, and the seam that fills the gap. */
+struct attempt {
+    struct hm_cut cut;
+    struct hm_seam seam;
+};
+
+static void attempt_free(struct attempt *a)
 {
-    *wider = *cut;
+    hm_cut_free(&a->cut);
+    hm_seam_free(&a->seam);
+}
+
+/* Cut the elements that stay at the corners of poor triangles of `a`, into `wider`. */
+static enum hm_err widen_cut(struct hm_cut *wider, const struct attempt *a,
+                             const struct hm_mesh *lower, int64_t *more, struct hm_diag *d)
+{
+    const struct hm_seam *seam = &a->seam;
+    *wider = a->cut;
     wider->gone = hm_alloc(lower->nelems, sizeof *wider->gone);
     bool *node = hm_alloc0(lower->nnodes, sizeof *node);
     enum hm_err err = wider->gone && node ? HM_OK : hm_fail_memory(d);
     if (!err)
-        memcpy(wider->gone, cut->gone, lower->nelems * sizeof *wider->gone);
+        memcpy(wider->gone, a->cut.gone, lower->nelems * sizeof *wider->gone);
     for (size_t i = 0; !err && i < seam->n; i++)
-        for (int k = 0; k < 3 && seam->triangle[i].angle < poor_angle; k++) {
+        for (int k = 0; k < 3 && seam->triangle[i].angle < HM_STITCH_POOR; k++) {
             size_t low = (size_t)~seam->triangle[i].node[k];
             if (seam->triangle[i].node[k] < 0 && low < lower->nnodes)
                 node[low] = true;
@@ -175,28 +198,29 @@ static enum hm_err widen_cut(struct hm_cut *wider, const struct hm_cut *cut,
     return err;
 }
 
-/* Where elements that stay leave no room for good triangles, cut more, as long as that helps. */
-static enum hm_err improve(struct hm_seam *seam, const struct pair *p, struct hm_cut *cut,
-                           struct hm_diag *d)
+/* Where elements that stay leave no room for good triangles, cut more, and keep the best of what
+ * was tried: a mesh that dips its corner into another one has to lose more than one row. */
+static enum hm_err improve(struct attempt *best, const struct pair *p, struct hm_diag *d)
 {
-    enum { MOST_ROUNDS = 4 };
+    enum { MOST_ROUNDS = 6 };
+    struct attempt last = {0};
+    const struct attempt *from = best;
     enum hm_err err = HM_OK;
-    bool better = true;
-    for (int round = 0; !err && better && round < MOST_ROUNDS && shortfall(seam) > 0; round++) {
-        struct hm_seam next = {0};
-        struct hm_cut wider;
+    bool more_to_try = true;
+    for (int round = 0; !err && more_to_try && round < MOST_ROUNDS && shortfall(&best->seam) > 0;
+         round++) {
+        struct attempt next = {0};
         int64_t more = 0;
         struct hm_diag ignored = {0};
-        err = widen_cut(&wider, cut, seam, p->lower.mesh, &more, d);
-        better = !err && more > 0 && !fill(&next, p, &wider, &ignored) &&
-                 shortfall(&next) < shortfall(seam);
-        hm_cut_free(better ? cut : &wider);
-        hm_seam_free(better ? seam : &next);
-        if (better) {
-            *cut = wider;
-            *seam = next;
-        }
+        err = widen_cut(&next.cut, from, p->lower.mesh, &more, d);
+        more_to_try = !err && more > 0 && !fill(&next.seam, p, &next.cut, &ignored);
+        bool better = more_to_try && shortfall(&next.seam) < shortfall(&best->seam);
+        struct attempt *slot = better ? best : &last;
+        attempt_free(slot);
+        *slot = next;
+        from = slot;
     }
+    attempt_free(&last);
     return err;
 }
 
@@ -205,26 +229,30 @@ enum hm_err hm_stitch_regular(struct hm_join *j, const struct hm_mesh *lower, do
                               struct hm_diag *d)
 {
     struct pair p = {0};
-    struct hm_cut cut = {0};
-    struct hm_seam seam = {0};
+    struct attempt a = {0};
     *s = (struct hm_stitched){0};
     enum hm_err err = open_pair(&p, &j->mesh, lower, d);
     if (!err)
-        err = hm_cut_mark(&cut, &p.higher, p.in_higher, lower, p.in_lower, buffer, d);
-    bool beside = !err && cut.overlapping == 0 && fit(&p.higher, &p.lower);
-    bool whole = beside || !cut.meets;
+        err = hm_cut_mark(&a.cut, &p.higher, p.in_higher, lower, p.in_lower, buffer, d);
+    bool beside = !err && a.cut.overlapping == 0 && fit(&p.higher, &p.lower);
+    bool whole = beside || !a.cut.meets;
     if (!err && !whole) {
-        err = fill(&seam, &p, &cut, d);
+        err = fill(&a.seam, &p, &a.cut, d);
         if (!err)
-            err = improve(&seam, &p, &cut, d);
-        s->overlapping = cut.overlapping;
-        s->near = cut.near;
-        s->loose = cut.loose;
+            err = improve(&a, &p, d);
+        s->overlapping = a.cut.overlapping;
+        s->near = a.cut.near;
+        s->loose = a.cut.loose;
     }
     if (!err)
-        err = sew(j, lower, whole ? NULL : &cut, &seam, terrain, map, s, d);
+        err = sew(j, lower, whole ? NULL : &a.cut, &a.seam, terrain, map, s, d);
     close_pair(&p);
-    hm_cut_free(&cut);
-    hm_seam_free(&seam);
+    attempt_free(&a);
     return err;
+}
+
+void hm_stitched_free(struct hm_stitched *stitched)
+{
+    free(stitched->poor);
+    *stitched = (struct hm_stitched){0};
 }

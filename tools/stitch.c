@@ -121,6 +121,12 @@ static void tell_stitched(struct hm_cli *cli, const char *name, const struct hm_
                    "%s: %lld mouths are narrower than two edges of the meshes before it, and "
                    "were widened",
                    name, (long long)s->widened);
+    if (s->npoor > 0)
+        hm_cli_say(cli, "%s: an angle under %g degrees in %s of the gap:", name, HM_STITCH_POOR,
+                   hm_cli_counted((int64_t)s->npoor, "triangle").text);
+    for (size_t i = 0; i < s->npoor; i++)
+        hm_cli_say(cli, "  %.1f degrees at %.10g %.10g", s->poor[i].angle, s->poor[i].centre[0],
+                   s->poor[i].centre[1]);
 }
 
 static void add_regular(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m,
@@ -135,6 +141,7 @@ static void add_regular(struct hm_cli *cli, struct hm_join *j, const struct hm_m
                   name_of(m), (long long)s.joined.unused);
     if (!first)
         tell_stitched(cli, name_of(m), &s);
+    hm_stitched_free(&s);
 }
 
 static void add_other(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh *m, int32_t *map)

@@ -38,8 +38,8 @@ static double distance(const struct hm_mesh *m, const struct hm_elem *e, const d
     return least;
 }
 
-/* Does the way from p to its foot on a–b, shorter than `reach`, lead from the element through ground
- * of the lower mesh? */
+/* Does the way from p to its foot on a–b, shorter than `reach`, lead from the element through
+ * ground of the lower mesh? */
 static bool leads(const struct sides *s, const struct hm_elem *e, const double *p, const double *a,
                   const double *b, double reach)
 {

@@ -13,8 +13,11 @@
 void hm_regular_free(struct hm_regular *s)
 {
     hm_bsurf_free(&s->surface);
-    free(s->snapped[HM_LEFT]);
-    free(s->snapped[HM_RIGHT]);
+    for (int side = 0; side < 2; side++) {
+        free(s->laid[side]);
+        free(s->passed[side]);
+        free(s->snapped[side]);
+    }
     *s = (struct hm_regular){0};
 }
 
@@ -25,19 +28,13 @@ struct plan {
     const struct hm_rough *rough;
     struct hm_regular *out;
     size_t n, m;
-    double *bank[2]; /* HM_LEFT, HM_RIGHT: n rough control points, 3 doubles each */
-    double *reach;   /* n */
-    double *xy[2];   /* snapped, 2 doubles each */
-    double *u, *v;   /* parameters of columns and rows, 0 .. 1 */
-    double *z;       /* n × m × 3: what the surface passes through at its Greville sites */
+    double *reach; /* n */
+    double *u, *v; /* parameters of columns and rows, 0 .. 1 */
+    double *z;     /* n × m × 3: what the surface passes through at its Greville sites */
 };
 
 static void plan_free(struct plan *p)
 {
-    for (int side = 0; side < 2; side++) {
-        free(p->bank[side]);
-        free(p->xy[side]);
-    }
     free(p->reach);
     free(p->u);
     free(p->v);
@@ -68,7 +65,7 @@ static enum hm_err divide_banks(struct plan *p, struct hm_diag *d)
                        r->size.along, r->name);
     enum hm_err err = HM_OK;
     for (int side = 0; !err && side < 2; side++)
-        err = hm_polyline_divide(&r->side[side], (size_t)pieces, &p->bank[side], &p->n, d);
+        err = hm_polyline_divide(&r->side[side], (size_t)pieces, &p->out->laid[side], &p->n, d);
     return err;
 }
 
@@ -79,10 +76,11 @@ static enum hm_err divide_sections(struct plan *p, struct hm_diag *d)
     const struct hm_rough_size *size = &p->rough->size;
     double width = 0;
     for (size_t i = 0; i < p->n; i++)
-        width += apart(p->bank[HM_LEFT] + 3 * i, p->bank[HM_RIGHT] + 3 * i) / (double)p->n;
+        width +=
+            apart(p->out->laid[HM_LEFT] + 3 * i, p->out->laid[HM_RIGHT] + 3 * i) / (double)p->n;
     p->m = size->nfractions;
     if (p->m == 0) {
-        const double *start = p->bank[HM_RIGHT];
+        const double *start = p->out->laid[HM_RIGHT];
         if (size->across > width)
             return hm_fail_at(d, HM_EGEOM, start[0], start[1],
                               "control points every %g m across surface '%s' are farther apart "
@@ -128,8 +126,8 @@ static void tell_moves(struct plan *p, int side)
 {
     struct hm_regular *s = p->out;
     for (size_t i = 0; i < p->n; i++) {
-        const double *from = p->bank[side] + 3 * i;
-        double far = apart(from, p->xy[side] + 2 * i);
+        const double *from = p->out->laid[side] + 3 * i;
+        double far = apart(from, p->out->passed[side] + 2 * i);
         s->moved += s->snapped[side][i];
         if (s->snapped[side][i] && far > s->largest) {
             s->largest = far;
@@ -150,16 +148,17 @@ static enum hm_err snap_banks(struct plan *p, const struct hm_breaklines *breakl
         return hm_fail_memory(d);
     for (size_t i = 0; i < p->n; i++)
         p->reach[i] = fmin(p->rough->size.snap,
-                           most_of_width * apart(p->bank[0] + 3 * i, p->bank[1] + 3 * i));
+                           most_of_width * apart(p->out->laid[0] + 3 * i, p->out->laid[1] + 3 * i));
     for (int side = 0; side < 2; side++) {
-        struct hm_bank bank = {.n = p->n, .rough = p->bank[side], .reach = p->reach};
+        struct hm_bank bank = {.n = p->n, .rough = p->out->laid[side], .reach = p->reach};
         slide_direction(&p->rough->side[HM_INFLOW], side == HM_LEFT, bank.slide[0]);
         slide_direction(&p->rough->side[HM_OUTFLOW], side == HM_LEFT, bank.slide[1]);
-        p->xy[side] = hm_alloc(p->n, 2 * sizeof *p->xy[side]);
+        p->out->passed[side] = hm_alloc(p->n, 2 * sizeof *p->out->passed[side]);
         p->out->snapped[side] = hm_alloc(p->n, sizeof *p->out->snapped[side]);
-        if (!p->xy[side] || !p->out->snapped[side])
+        if (!p->out->passed[side] || !p->out->snapped[side])
             return hm_fail_memory(d);
-        enum hm_err err = hm_snap_bank(breaklines, &bank, p->xy[side], p->out->snapped[side], d);
+        enum hm_err err =
+            hm_snap_bank(breaklines, &bank, p->out->passed[side], p->out->snapped[side], d);
         if (err)
             return err;
         tell_moves(p, side);
@@ -193,8 +192,9 @@ static enum hm_err lay_net(struct plan *p, struct hm_diag *d)
     for (size_t k = 0; k < p->n * p->m; k++)
         p->z[3 * k] = p->z[3 * k + 1] = p->z[3 * k + 2] = NAN;
     for (size_t i = 0; i < p->n; i++) {
-        memcpy(p->z + 3 * i, p->xy[HM_RIGHT] + 2 * i, 2 * sizeof *p->z);
-        memcpy(p->z + 3 * ((p->m - 1) * p->n + i), p->xy[HM_LEFT] + 2 * i, 2 * sizeof *p->z);
+        memcpy(p->z + 3 * i, p->out->passed[HM_RIGHT] + 2 * i, 2 * sizeof *p->z);
+        memcpy(p->z + 3 * ((p->m - 1) * p->n + i), p->out->passed[HM_LEFT] + 2 * i,
+               2 * sizeof *p->z);
     }
     lay_section(p, &p->rough->side[HM_INFLOW], 0);
     lay_section(p, &p->rough->side[HM_OUTFLOW], p->n - 1);

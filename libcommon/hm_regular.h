@@ -29,7 +29,9 @@ struct hm_regular_how {
 
 struct hm_regular {
     struct hm_bsurf surface;       /* dim 3 */
-    bool *snapped[2];              /* HM_LEFT, HM_RIGHT: control point i found a breakline */
+    double *laid[2];               /* HM_LEFT, HM_RIGHT: 3 a control point, on the rough bank; */
+    double *passed[2];             /* 2 a control point: where the surface passes instead */
+    bool *snapped[2];              /* control point i found a breakline */
     size_t moved;                  /* and how many did, of 2 n */
     double largest, largest_at[2]; /* the largest move, and from where */
     size_t unknown;                /* control points without terrain: z from their neighbours */
@@ -56,6 +58,12 @@ void hm_regular_free(struct hm_regular *s);
 enum hm_err hm_regular_mesh(struct hm_regular *s, const struct hm_rough *rough,
                             const struct hm_regular_how *how, struct hm_mesh *mesh,
                             struct hm_diag *d);
+
+/* The control points for a picture: lines with net=NAME row=J and net=NAME column=I, and for each
+ * control point on the banks a line with move=NAME side=left|right moved=0|1 from where it was laid
+ * to where the surface passes. Appended to `lines`. */
+enum hm_err hm_regular_net(const struct hm_regular *s, const char *name, struct hm_lines *lines,
+                           struct hm_diag *d);
 
 /* Mark the nodes on the border of a finished (cut) mesh HM_NODE_BOUNDARY and HM_NODE_FIXED. */
 enum hm_err hm_regular_flag_border(struct hm_mesh *mesh, struct hm_diag *d);

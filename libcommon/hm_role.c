@@ -17,5 +17,9 @@ enum hm_role hm_role_of(const char *attrs)
         return HM_ROLE_REGION;
     if (hm_attr_get(attrs, "string", value, sizeof value))
         return HM_ROLE_STRING;
+    if (hm_attr_get(attrs, "net", value, sizeof value))
+        return HM_ROLE_NET;
+    if (hm_attr_get(attrs, "move", value, sizeof value))
+        return HM_ROLE_MOVE;
     return HM_ROLE_BREAKLINE;
 }

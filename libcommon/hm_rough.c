@@ -170,16 +170,19 @@ static enum hm_err take_line(const struct hm_line *line, const struct hm_rough_s
                           "the name of a surface is one word of at most %d letters, not '%s'",
                           HM_ROUGH_NAME - 1, name);
     int s = HM_SIDES;
-    if (hm_attr_get(line->attrs, "side", side, sizeof side))
+    bool has_side = hm_attr_get(line->attrs, "side", side, sizeof side),
+         axis = !strcmp(side, "axis");
+    if (has_side && !axis)
         for (s = 0; s < HM_SIDES && strcmp(side, side_name[s]) != 0; s++)
             ;
-    if (s == HM_SIDES)
+    if (s == HM_SIDES && !axis)
         return hm_fail_at(d, HM_EFORMAT, x, y,
-                          "a line of surface '%s' has side '%s': left, right, inflow or outflow",
+                          "a line of surface '%s' has side '%s': left, right, inflow, outflow or "
+                          "axis",
                           name, side);
     struct hm_rough *r = NULL;
     enum hm_err err = find_surface(name, defaults, list, count, &r, d);
-    if (err)
+    if (err || axis)
         return err;
     if (r->side[s].xyz)
         return hm_fail_at(d, HM_EGEOM, x, y, "surface '%s' has two lines with side=%s", name, side);

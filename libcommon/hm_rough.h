@@ -2,7 +2,8 @@
  *
  * A surface is bounded by two banks and two end sections, lines with the attributes
  * `surface=NAME side=left|right|inflow|outflow`; left and right as one looks downstream. Banks may
- * be drawn in either direction. A section that was not drawn is straight.
+ * be drawn in either direction. A section that was not drawn is straight. A line with side=axis
+ * only gives its surface a place in the order: hm_axis makes banks of it.
  *
  *          left    0 ───────────────────> n-1
  *                  ^                       ^

@@ -1,9 +1,7 @@
 #include "hm_snap.h"
 
-#include "hm_attr.h"
 #include "hm_plane.h"
 #include "hm_polyline.h"
-#include "hm_role.h"
 #include "hm_segindex.h"
 
 #include <math.h>
@@ -24,130 +22,6 @@ static const double LEAST_STEP = 0.2;   /* of a control distance that each point
 static const double MOST_DETOUR = 1.5;  /* length along a breakline over the straight way */
 
 enum { MOST_TARGETS = 12, STAYS = 3, GLIDES = 8 };
-
-struct hm_breaklines {
-    const struct hm_line **line;
-    double **behind; /* of line k: its length before each vertex, and in all (pieces + 1 numbers) */
-    bool *sided;     /* steep on its left, as lines with limit= are */
-    size_t n;
-    struct hm_segindex *index;
-};
-
-/* --- the breaklines --- */
-
-static enum hm_err measure(const struct hm_line *line, double **behind, struct hm_diag *d)
-{
-    size_t pieces = hm_polyline_pieces(line);
-    double *s = *behind = hm_alloc(pieces + 1, sizeof *s);
-    if (!s)
-        return hm_fail_memory(d);
-    s[0] = 0;
-    for (size_t k = 0; k < pieces; k++) {
-        const double *a = hm_polyline_from(line, k), *b = hm_polyline_to(line, k);
-        s[k + 1] = s[k] + hypot(b[0] - a[0], b[1] - a[1]);
-    }
-    return HM_OK;
-}
-
-static enum hm_err build_index(struct hm_breaklines *b, size_t pieces, struct hm_diag *d)
-{
-    struct hm_segment *s = hm_alloc(pieces, sizeof *s);
-    if (!s)
-        return hm_fail_memory(d);
-    size_t n = 0;
-    for (size_t l = 0; l < b->n; l++)
-        for (size_t k = 0; k < hm_polyline_pieces(b->line[l]); k++, n++) {
-            memcpy(s[n].a, hm_polyline_from(b->line[l], k), sizeof s[n].a);
-            memcpy(s[n].b, hm_polyline_to(b->line[l], k), sizeof s[n].b);
-            s[n].line = (int32_t)l;
-            s[n].piece = (int32_t)k;
-        }
-    enum hm_err err = hm_segindex_build(&b->index, s, n, d);
-    free(s);
-    return err;
-}
-
-enum hm_err hm_breaklines_build(struct hm_breaklines **out, const struct hm_lines *sets, size_t n,
-                                struct hm_diag *d)
-{
-    *out = NULL;
-    size_t most = 0, pieces = 0;
-    char limit[2];
-    for (size_t s = 0; s < n; s++)
-        most += sets[s].n;
-    struct hm_breaklines *b = hm_alloc0(1, sizeof *b);
-    if (!b)
-        return hm_fail_memory(d);
-    b->line = hm_alloc(most, sizeof *b->line);
-    b->behind = hm_alloc(most, sizeof *b->behind);
-    b->sided = hm_alloc(most, sizeof *b->sided);
-    enum hm_err err = b->line && b->behind && b->sided ? HM_OK : hm_fail_memory(d);
-    for (size_t s = 0; !err && s < n; s++)
-        for (size_t k = 0; !err && k < sets[s].n; k++) {
-            const struct hm_line *line = &sets[s].line[k];
-            if (hm_role_of(line->attrs) != HM_ROLE_BREAKLINE || line->n < 2)
-                continue;
-            err = measure(line, &b->behind[b->n], d);
-            b->line[b->n] = line;
-            b->sided[b->n] = hm_attr_get(line->attrs, "limit", limit, sizeof limit);
-            b->n += !err;
-            pieces += hm_polyline_pieces(line);
-        }
-    if (!err)
-        err = build_index(b, pieces, d);
-    if (err)
-        hm_breaklines_free(b);
-    else
-        *out = b;
-    return err;
-}
-
-void hm_breaklines_free(struct hm_breaklines *b)
-{
-    if (!b)
-        return;
-    for (size_t k = 0; k < b->n; k++)
-        free(b->behind[k]);
-    free(b->behind);
-    free(b->sided);
-    free(b->line);
-    hm_segindex_free(b->index);
-    free(b);
-}
-
-size_t hm_breaklines_count(const struct hm_breaklines *b)
-{
-    return b->n;
-}
-
-/* The point of a breakline at s from its start; around in a closed one, else kept within it. */
-static void place_on(const struct hm_breaklines *b, int32_t l, double s, double xy[2])
-{
-    const struct hm_line *line = b->line[l];
-    const double *behind = b->behind[l];
-    size_t lo = 0, hi = hm_polyline_pieces(line);
-    double length = behind[hi];
-    if (line->closed && length > 0) {
-        s = fmod(s, length);
-        s = s < 0 ? s + length : s;
-    }
-    while (hi - lo > 1) {
-        size_t mid = (lo + hi) / 2;
-        *(behind[mid] <= s ? &lo : &hi) = mid;
-    }
-    double piece = behind[lo + 1] - behind[lo];
-    double t = piece > 0 ? fmin(1, fmax(0, (s - behind[lo]) / piece)) : 0;
-    const double *p = hm_polyline_from(line, lo), *q = hm_polyline_to(line, lo);
-    for (int k = 0; k < 2; k++)
-        xy[k] = p[k] + t * (q[k] - p[k]);
-}
-
-/* How far from s1 to s2 along a breakline, the shorter way around a closed one. */
-static double way_along(const struct hm_breaklines *b, int32_t l, double s1, double s2)
-{
-    double way = s2 - s1, length = b->behind[l][hm_polyline_pieces(b->line[l])];
-    return b->line[l]->closed && length > 0 ? remainder(way, length) : way;
-}
 
 /* --- targets of one control point --- */
 
@@ -203,7 +77,7 @@ static void keep_target(struct search *q, const struct target *t)
     for (int32_t k = 0; k < q->n; k++) {
         struct target *old = &q->out[k];
         if (old->line == t->line &&
-            fabs(way_along(q->fit->b, t->line, old->s, t->s)) < q->spacing / 2) {
+            fabs(hm_breaklines_way(q->fit->b, t->line, old->s, t->s)) < q->spacing / 2) {
             if (t->far < old->far)
                 *old = *t;
             return;
@@ -255,8 +129,8 @@ static void price(const struct search *q, struct target *t, const double dir[2])
 {
     const struct fit *f = q->fit;
     double a[2], b[2], half = q->spacing / 2, reach = f->bank->reach[q->i];
-    place_on(f->b, t->line, t->s - half, a);
-    place_on(f->b, t->line, t->s + half, b);
+    hm_breaklines_at(f->b, t->line, t->s - half, a);
+    hm_breaklines_at(f->b, t->line, t->s + half, b);
     double length = hypot(b[0] - a[0], b[1] - a[1]);
     for (int k = 0; k < 2; k++)
         t->dir[k] = length > 0 ? (b[k] - a[k]) / length : dir[k];
@@ -305,7 +179,7 @@ static bool same_stretch(const struct fit *f, const struct target *p, const stru
 {
     double straight = hypot(q->xy[0] - p->xy[0], q->xy[1] - p->xy[1]);
     return p->line >= 0 && p->line == q->line &&
-           fabs(way_along(f->b, p->line, p->s, q->s)) <= MOST_DETOUR * straight;
+           fabs(hm_breaklines_way(f->b, p->line, p->s, q->s)) <= MOST_DETOUR * straight;
 }
 
 /* The price of going from target p of point i to target q of the next; infinite for going back. A
@@ -390,8 +264,8 @@ static enum hm_err glide(const struct fit *f, const struct target *const *way, d
             int32_t l = way[i]->line;
             if (!same_stretch(f, way[i - 1], way[i]) || !same_stretch(f, way[i], way[i + 1]))
                 continue;
-            double back = way_along(f->b, l, s[i], s[i - 1]);
-            double ahead = way_along(f->b, l, s[i], s[i + 1]);
+            double back = hm_breaklines_way(f->b, l, s[i], s[i - 1]);
+            double ahead = hm_breaklines_way(f->b, l, s[i], s[i + 1]);
             if ((back > 0) != (ahead > 0))
                 next[i] = s[i] + (back + ahead) / 4;
             next[i] = fmin(fmax(next[i], way[i]->s - most), way[i]->s + most);
@@ -401,7 +275,7 @@ static enum hm_err glide(const struct fit *f, const struct target *const *way, d
     for (size_t i = 0; i < n; i++) {
         memcpy(xy + 2 * i, way[i]->xy, 2 * sizeof *xy);
         if (way[i]->line >= 0 && s[i] != way[i]->s)
-            place_on(f->b, way[i]->line, s[i], xy + 2 * i);
+            hm_breaklines_at(f->b, way[i]->line, s[i], xy + 2 * i);
     }
     free(s);
     return HM_OK;

@@ -9,15 +9,7 @@
 #ifndef HM_SNAP_H
 #define HM_SNAP_H
 
-#include "hm_line.h"
-
-struct hm_breaklines;
-
-/* The lines without a role in n sets, ready to be snapped to. The sets must outlive it. */
-enum hm_err hm_breaklines_build(struct hm_breaklines **b, const struct hm_lines *sets, size_t n,
-                                struct hm_diag *d);
-void hm_breaklines_free(struct hm_breaklines *b);
-size_t hm_breaklines_count(const struct hm_breaklines *b);
+#include "hm_breaklines.h"
 
 /* One bank: n control points, at least 2. */
 struct hm_bank {

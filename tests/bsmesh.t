@@ -151,6 +151,60 @@ for how in '' -Q; do
     true_that "area of the bend: $1" "$1 > 0.97 * 6702 && $1 < 1.06 * 6702"
 done
 
+# --- from a rough centre line ---
+
+axis='> surface=main side=axis half_width=20
+-1 19 0
+150 23 0
+301 18 0'
+lines "$axis
+$banks
+> limit=5
+140 -40 1
+150 80 1" >axis.txt
+ok "both banks from an axis" bsmesh -o ax.hm -c 10/8 -e 10/4 axis.txt plane.xyz
+grep -q 'main: both banks found from the axis, at all of 62 places' tap.err
+report $? "which is said"
+true_that "up to the left breakline" "($(most ax.hm '$2') - 44) ^ 2 < 1e-10"
+true_that "and to the right one" "($(most ax.hm '-$2') - 3) ^ 2 < 1e-10"
+true_that "as long as the axis" "($(most ax.hm '$1') - 301) ^ 2 < 4 && $(grep -c '^t' ax.hm) == 720"
+lines "$axis
+> limit=5
+-20 44 1
+320 44 1" >half.txt
+ok "one bank only" bsmesh -o ax.hm -c 10/8 -e 10/4 half.txt plane.xyz
+grep -q 'found from the axis at 31 of 62 places; at 31 the half-width holds, the first beside -1 19' tap.err
+report $? "where none is found the half-width holds, and it is counted"
+true_that "as wide as that: $(most ax.hm '-$2')" "$(most ax.hm '-$2') > 0 && $(most ax.hm '-$2') < 2.5"
+lines "> surface=bend side=axis half_width=18
+$(arc 82 12)
+$(sed -n '/limit/,/#end/p' bend.txt | sed '/#end/d')" >axis_bend.txt
+ok "in a bend" bsmesh -o ax.hm -c 8/8 -e 3/2 axis_bend.txt bend.xyz
+nodes ax.hm | awk 'int($4 / 2) % 2' | sed 's/^/v /' >bank.hm
+true_that "on both breaklines: $(off bank.hm 60) $(off bank.hm 100)" "$(off bank.hm 60) < 0.6 && $(off bank.hm 100) < 0.8"
+lines "> surface=b side=left along=10 across=10 elements=10
+0 70 0
+100 70 0
+$axis
+> surface=b side=right
+0 50 0
+100 50 0" >order.txt
+bsmesh -c 10/8 -e 10/4 order.txt plane.xyz 2>/dev/null >ax.hm
+true_that "surfaces keep their order" "$(awk '/^#name/ { printf "%s", $2 }' ax.hm | grep -c '^bmain$') == 1"
+
+# --- control points for a picture ---
+
+ok "control points on request" bsmesh --net net.hm -o again.hm -c 10/8 -e 10/4 lines.txt plane.xyz
+true_that "the mesh is the same" "$(grep '^[vt]' m.hm | cksum | cut -d' ' -f1) == $(grep '^[vt]' again.hm | cksum | cut -d' ' -f1)"
+true_that "rows, columns and moves" "$(grep -c 'net=main row=' net.hm) == 6 && $(grep -c 'net=main column=' net.hm) == 31 &&
+    $(grep -c 'move=main side=.* moved=1' net.hm) == $(sed -n 's/.*main: \([0-9]*\) of 62 control.*/\1/p' tap.err)"
+true_that "moves end on the breaklines" "$(awk '/^>/ { on = /moved=1/; n = 0 } on && ++n == 3 &&
+    ($2 - 44) ^ 2 > 1e-9 && ($2 + 3) ^ 2 > 1e-9 { bad++ } END { print bad + 0 }' net.hm) == 0"
+bsmesh -c 10/8 -e 10/4 lines.txt net.hm plane.xyz 2>/dev/null >again.hm
+true_that "and are no breaklines" "$(grep '^[vt]' m.hm | cksum | cut -d' ' -f1) == $(grep '^[vt]' again.hm | cksum | cut -d' ' -f1)"
+must_fail "the net to standard output" 2 "needs a file" bsmesh --net - -c 10/8 -e 10/4 lines.txt plane.xyz
+must_fail "or to nowhere" 2 "no/such" bsmesh --net no/such/file -c 10/8 -e 10/4 lines.txt plane.xyz
+
 # --- faces ---
 
 loop='> face=main closed=1
@@ -317,9 +371,25 @@ refuse "a closed bank" "a closed line" "$right
 30 80 0"
 refuse "the same bank twice" "two lines with side=left" "$left
 $left"
-refuse "an unknown side" "side 'top': left, right, inflow or outflow" '> surface=main side=top
+refuse "an unknown side" "side 'top': left, right, inflow, outflow or axis" '> surface=main side=top
 0 0 0
 1 1 0'
+refuse "an axis without half-width" "half_width=20.* at 0 20" '> surface=main side=axis
+0 20 0
+300 20 0'
+refuse "a half-width that is none" "half-width" '> surface=main side=axis half_width=-3
+0 20 0
+300 20 0'
+refuse "a closed axis" "axis.* closed line at 0 20" '> surface=main side=axis half_width=9 closed=1
+0 20 0
+30 20 0
+30 60 0'
+refuse "an axis of one point" "axis.* only one point at 0 20" '> surface=main side=axis half_width=9
+0 20 0'
+refuse "an axis and a bank" "two lines with side=left" "$left
+> surface=main side=axis half_width=9
+0 20 0
+300 20 0"
 refuse "no side" "side ''" '> surface=main
 0 0 0
 1 1 0'

@@ -1,7 +1,9 @@
 /* bsmesh: rough banks, breaklines and terrain → a regular mesh a surface, on B-spline surfaces. */
+#include "hm_axis.h"
 #include "hm_cli.h"
 #include "hm_facefit.h"
 #include "hm_misfit.h"
+#include "hm_output.h"
 #include "hm_regular.h"
 #include "hm_rough.h"
 #include "hm_snap.h"
@@ -22,7 +24,7 @@ static struct {
     double gap;
     bool fit;
     double misfit;
-    const char *surface;
+    const char *surface, *net;
 } cmd = {.degree = 1, .iterations = 5};
 
 static const struct hm_option options[] = {
@@ -44,6 +46,8 @@ static const struct hm_option options[] = {
      .help = "move the nodes of a cut onto the face loop"},
     {'m', "misfit", "M", HM_OPT_POSITIVE, &cmd.misfit,
      .help = "give up elements that miss the terrain by more, root mean square, m"},
+    {0, "net", "FILE", HM_OPT_TEXT, &cmd.net,
+     .help = "write the control points, and how they moved, there"},
     {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface,
      .help = "make only this surface (default: all)"},
     {0}};
@@ -65,6 +69,8 @@ struct job {
     struct hm_face *face;
     size_t nfaces;
     struct hm_breaklines *breaklines;
+    struct hm_lines banks; /* of axes */
+    struct hm_lines net;   /* control points, when they are wanted */
     struct hm_terrain *terrain;
     struct hm_regular_how how;
 };
@@ -84,13 +90,45 @@ static struct hm_rough_size read_sizes(struct hm_cli *cli)
     return size;
 }
 
+/* Banks for surfaces that have an axis only. */
+static void find_banks(struct hm_cli *cli, struct job *job, const struct hm_rough_size *size)
+{
+    struct hm_diag d = {0};
+    struct hm_axis *axis;
+    size_t n;
+    hm_cli_check(cli,
+                 hm_axis_banks(job->breaklines, job->in.lines, job->in.nlines, size->along,
+                               &job->banks, &axis, &n, &d),
+                 &d);
+    for (size_t k = 0; k < n; k++)
+        if (axis[k].by_width == 0)
+            hm_cli_say(cli, "%s: both banks found from the axis, at all of %zu places",
+                       axis[k].name, axis[k].places);
+        else
+            hm_cli_say(cli,
+                       "%s: banks found from the axis at %zu of %zu places; at %zu the half-width "
+                       "holds, the first beside %.10g %.10g",
+                       axis[k].name, axis[k].places - axis[k].by_width, axis[k].places,
+                       axis[k].by_width, axis[k].by_width_at[0], axis[k].by_width_at[1]);
+    free(axis);
+}
+
 static void read_lines(struct hm_cli *cli, struct job *job)
 {
     struct hm_rough_size size = read_sizes(cli);
     struct hm_diag d = {0};
     const struct hm_inputs *in = &job->in;
-    hm_cli_check(cli, hm_rough_collect(in->lines, in->nlines, &size, &job->rough, &job->nrough, &d),
+    struct hm_lines *sets = hm_alloc(in->nlines + 1, sizeof *sets);
+    if (!sets)
+        hm_cli_die(cli, "out of memory");
+    hm_cli_check(cli, hm_breaklines_build(&job->breaklines, in->lines, in->nlines, &d), &d);
+    find_banks(cli, job, &size);
+    for (size_t k = 0; k < in->nlines; k++)
+        sets[k] = in->lines[k];
+    sets[in->nlines] = job->banks;
+    hm_cli_check(cli, hm_rough_collect(sets, in->nlines + 1, &size, &job->rough, &job->nrough, &d),
                  &d);
+    free(sets);
     if (job->nrough == 0)
         hm_cli_die(cli, "no rough banks among the lines: give them as lines with the attributes "
                         "surface=NAME side=left and surface=NAME side=right");
@@ -98,7 +136,6 @@ static void read_lines(struct hm_cli *cli, struct job *job)
                  hm_face_collect(in->lines, in->nlines, job->rough, job->nrough, &job->face,
                                  &job->nfaces, &d),
                  &d);
-    hm_cli_check(cli, hm_breaklines_build(&job->breaklines, in->lines, in->nlines, &d), &d);
     bool found = !cmd.surface;
     for (size_t k = 0; k < job->nrough; k++)
         found = found || !strcmp(job->rough[k].name, cmd.surface);
@@ -133,7 +170,7 @@ static void tell_moves(struct hm_cli *cli, const struct job *job, const struct h
     size_t n = s->surface.n;
     if (rough->size.snap == 0)
         hm_cli_say(cli, "%s: banks as drawn, not moved to breaklines (snap=0)", rough->name);
-    else if (hm_breaklines_count(job->breaklines) == 0)
+    else if (job->breaklines->n == 0)
         hm_cli_say(cli, "%s: no breaklines to move the banks to", rough->name);
     else if (s->moved > 0)
         hm_cli_say(cli,
@@ -219,7 +256,7 @@ static void drop_misfits(struct hm_cli *cli, const struct job *job, const struct
                rough->name, (long long)(cut.dropped + cut.pinched), all, cmd.misfit);
 }
 
-static void mesh_surface(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
+static void mesh_surface(struct hm_cli *cli, struct job *job, const struct hm_rough *rough,
                          struct hm_mesh *mesh)
 {
     struct hm_diag d = {0};
@@ -237,12 +274,29 @@ static void mesh_surface(struct hm_cli *cli, const struct job *job, const struct
         drop_misfits(cli, job, rough, mesh);
     hm_cli_check(cli, hm_regular_flag_border(mesh, &d), &d);
     tell(cli, job, rough, &s, &cut, &fit, mesh);
+    if (cmd.net)
+        hm_cli_check(cli, hm_regular_net(&s, rough->name, &job->net, &d), &d);
     make_header(cli, job, rough, &mesh->header);
     hm_regular_free(&s);
 }
 
+static void write_net(struct hm_cli *cli, struct job *job)
+{
+    struct hm_diag d = {0};
+    struct hm_writer *w = NULL;
+    hm_cli_check(cli, hm_header_init(&job->net.header, HM_LINES, &d), &d);
+    hm_cli_make_header(cli, &job->net.header);
+    hm_cli_check(cli, hm_writer_open(&w, cmd.net, hm_cli_format(cli), &d), &d);
+    enum hm_err err = hm_lines_write(&job->net, w, &d);
+    if (!err)
+        err = hm_writer_close(&w, &d);
+    if (err)
+        hm_writer_abandon(w);
+    hm_cli_check(cli, err, &d);
+}
+
 /* Nothing is written before the last surface has succeeded: what comes out is whole. */
-static void mesh_all(struct hm_cli *cli, const struct job *job)
+static void mesh_all(struct hm_cli *cli, struct job *job)
 {
     struct hm_diag d = {0};
     struct hm_mesh *mesh = hm_alloc0(job->nrough, sizeof *mesh);
@@ -253,6 +307,8 @@ static void mesh_all(struct hm_cli *cli, const struct job *job)
             hm_cli_progress(cli, "surfaces", (double)k / (double)job->nrough);
             mesh_surface(cli, job, &job->rough[k], &mesh[k]);
         }
+    if (cmd.net)
+        write_net(cli, job);
     for (size_t k = 0; k < job->nrough; k++) {
         if (is_wanted(&job->rough[k]))
             hm_cli_check(cli, hm_mesh_write(&mesh[k], hm_cli_writer(cli), &d), &d);
@@ -268,6 +324,11 @@ int main(int argc, char **argv)
                               .iterations = cmd.iterations,
                               .quads = cmd.quads,
                               .threads = hm_cli_threads(cli)}};
+    struct hm_diag d = {0};
+    if (cmd.net && !strcmp(cmd.net, "-"))
+        hm_cli_die(cli, "--net: needs a file, standard output has the meshes");
+    if (cmd.net)
+        hm_cli_check(cli, hm_output_check(cmd.net, &d), &d);
     hm_cli_read_all(cli, &job.in);
     read_lines(cli, &job);
     hm_cli_stage(cli, "the terrain");
@@ -275,6 +336,8 @@ int main(int argc, char **argv)
     mesh_all(cli, &job);
     hm_terrain_free(job.terrain);
     hm_breaklines_free(job.breaklines);
+    hm_lines_free(&job.banks);
+    hm_lines_free(&job.net);
     free(job.face);
     hm_rough_free(job.rough, job.nrough);
     hm_inputs_free(&job.in);

@@ -21,6 +21,8 @@ static const struct style styles[] = {
     [HM_ROLE_BOUNDARY] = {"Outline", &INK, 0.12, true, false},
     [HM_ROLE_REGION] = {"Regions", &INK, 0.08, false, true},
     [HM_ROLE_STRING] = {"Boundary strings", &STRING, 0.22, false, false},
+    [HM_ROLE_NET] = {"Control points", &ROUGH, 0.04, false, true},
+    [HM_ROLE_MOVE] = {"Moved to breaklines", &STRING, 0.14, false, false},
 };
 
 static void trace(struct page *page, const struct hm_line *line)

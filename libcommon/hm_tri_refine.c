@@ -31,6 +31,7 @@ struct refine {
     double cos2; /* square of the cosine of the minimum angle */
     double lens; /* square of the cosine of twice that */
     double off;  /* the farthest off-centre, in lengths of the edge */
+    double most; /* square of the longest edge */
 };
 
 /* Ghosts are outside by region. */
@@ -74,13 +75,17 @@ static bool is_whole(const struct refine *r, int32_t e)
     return (r->t->marks[e] & r->q->whole) != 0;
 }
 
-/* Queue a constraint that has a vertex too near. */
+/* Queue a constraint that is too long, or has a vertex too near. */
 static enum hm_err check_segment(struct refine *r, int32_t e)
 {
     if (!r->t->marks[e] || is_whole(r, e))
         return HM_OK;
-    for (int side = 0; side < 2; side++, e = r->t->half[e].twin)
-        if (is_inside(r, e / 3) && encroaches(r, e, hm_tri_at(r->t, hm_tri_apex_of(r->t, e))))
+    const struct hm_tri *t = r->t;
+    bool is_long =
+        length2(hm_tri_at(t, t->half[e].org), hm_tri_at(t, hm_tri_dest_of(t, e))) > r->most;
+    for (int side = 0; side < 2; side++, e = t->half[e].twin)
+        if (is_inside(r, e / 3) &&
+            (is_long || encroaches(r, e, hm_tri_at(t, hm_tri_apex_of(t, e)))))
             return push_segment(r, e);
     return HM_OK;
 }
@@ -162,7 +167,8 @@ static inline struct verdict judge(const struct refine *r, int32_t tri)
     is.dot2 = dot * dot;
     is.base = product / length[least];
     is.small = is.dot2 > r->cos2 * is.base;
-    is.large = hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
+    is.large = fmax(length[0], fmax(length[1], length[2])) > r->most ||
+               hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
     return is;
 }
 
@@ -549,8 +555,8 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
                           struct hm_tri_refined *done, struct hm_diag *d)
 {
     struct hm_tri_refined unasked;
-    if (!(q->min_angle >= 0 && q->min_angle <= 40) || !(q->max_area >= 0) || !(q->growth >= 0) ||
-        q->hull_marks == 0)
+    if (!(q->min_angle >= 0 && q->min_angle <= 40) || !(q->max_area >= 0) || !(q->max_edge >= 0) ||
+        !(q->growth >= 0) || q->hull_marks == 0)
         return hm_fail(d, HM_EARG, "bounds of the refinement are out of range");
     struct refine *r = hm_alloc0(1, sizeof *r);
     if (!r)
@@ -562,6 +568,7 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     r->cos2 = q->min_angle > 0 ? cos(angle) * cos(angle) : 2;
     r->lens = cos(2 * angle) * cos(2 * angle);
     r->off = q->min_angle > 0 ? 0.36 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : 0;
+    r->most = q->max_edge > 0 ? q->max_edge * q->max_edge : INFINITY;
     hm_tri_worklist_init(&r->bad);
     enum hm_err err = refine(r);
     if (!err)

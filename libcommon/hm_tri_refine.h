@@ -23,6 +23,7 @@ struct hm_tri_sharp {
 struct hm_tri_quality {
     double min_angle; /* degrees; it surely ends up to 20, in practice up to 33. At most 40 */
     double max_area;
+    double max_edge; /* the longest edge of a triangle */
 
     /* the largest area around x, y in a region, or 0; NULL: max_area alone */
     double (*area_at)(void *arg, double x, double y, int32_t region);
@@ -51,7 +52,7 @@ struct hm_tri_refined {
     int64_t small;               /* triangles still under the minimum angle … */
     int64_t given;               /* … of those, with an angle between two constraints */
     double smallest, x, y;       /* the smallest angle of all in degrees, and where */
-    int64_t large;               /* triangles still over their area */
+    int64_t large;               /* triangles still over their area or longest edge */
     bool capped;                 /* `most` was reached */
 };
 

@@ -191,6 +191,29 @@ static void sizes(void)
     hm_tri_free(t);
 }
 
+static void lengths(void)
+{
+    for (int angle = 0; angle <= 30; angle += 15) {
+        struct hm_tri *t = polygon(shape, 8, 8);
+        const double wanted = 0.3;
+        struct hm_tri_quality q = {
+            .min_angle = angle, .max_edge = wanted, .outside = -1, .hull_marks = 1, .most = 100000};
+        struct hm_tri_refined done;
+        bool good =
+            !hm_tri_refine(t, &q, &done, NULL) && is_sound(t) && !done.large && !done.capped;
+        double longest = 0;
+        for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
+            if (!hm_tri_is_solid(t, e / 3) || hm_tri_region(t, e / 3) == -1)
+                continue;
+            const double *a = hm_tri_xy(t, hm_tri_org(t, e)), *b = hm_tri_xy(t, hm_tri_dest(t, e));
+            longest = fmax(longest, hypot(b[0] - a[0], b[1] - a[1]));
+        }
+        ok(good && longest <= wanted && longest > wanted / 2, "%d degrees, no edge over %g: %.3f",
+           angle, wanted, longest);
+        hm_tri_free(t);
+    }
+}
+
 /* Beside a short edge triangles are small, and grow with the way from it: no slower would be
  * needed, no faster is allowed. Sizes go along edges, which are a detour of a quarter at most here.
  */
@@ -309,6 +332,7 @@ int main(void)
     corners();
     needle();
     sizes();
+    lengths();
     growth();
     whole();
     random_drawings();

@@ -2,6 +2,7 @@
 #include "hm_assemble.h"
 #include "hm_assemble_private.h"
 #include "hm_attr.h"
+#include "hm_elem.h"
 #include "hm_hull.h"
 #include "hm_polyline.h"
 
@@ -33,31 +34,44 @@ static enum hm_err add_segment(struct hm_build *b, int32_t from, int32_t to, int
 
 /* --- regular meshes --- */
 
+/* A boundary edge, and the element that it bounds. */
+static enum hm_err add_side(struct hm_build *b, int32_t from, int32_t to, double area,
+                            struct hm_diag *d)
+{
+    if (!hm_grow(&b->beside, &b->beside_cap, b->nsegments + 1, sizeof *b->beside))
+        return hm_fail_memory(d);
+    b->beside[b->nsegments] = area;
+    return add_segment(b, from, to, HM_EDGE_REGULAR, d);
+}
+
+static enum hm_err add_loop(struct hm_build *b, const struct hm_mesh *m, const int32_t *node,
+                            const int32_t *elem, size_t n, struct hm_diag *d)
+{
+    int32_t first = (int32_t)b->nnodes, number;
+    enum hm_err err = HM_OK;
+    for (size_t j = 0; !err && j < n; j++) {
+        const struct hm_node *from = &m->node[node[j]];
+        err = add_node(b, &from->x, &number, d);
+        if (err)
+            return err;
+        b->node[number].flags = from->flags;
+        b->node[number].owner = from->owner;
+        err = add_side(b, number, j + 1 < n ? number + 1 : first,
+                       hm_elem_area(m, &m->elem[elem[j]]), d);
+    }
+    return err;
+}
+
 static enum hm_err add_regular(struct hm_build *b, struct hm_diag *d)
 {
     enum hm_err err = HM_OK;
     for (size_t k = 0; k < b->in->nmeshes; k++) {
-        const struct hm_mesh *m = &b->in->meshes[k];
         const struct hm_mesh_loops *l = hm_fence_loops(b->fence, k);
-        for (size_t i = 0; i < l->nloops; i++) {
-            int32_t first = (int32_t)b->nnodes, number = first;
-            for (size_t j = l->start[i]; !err && j < l->start[i + 1]; j++) {
-                const struct hm_node *node = &m->node[l->node[j]];
-                err = add_node(b, (double[3]){node->x, node->y, node->z}, &number, d);
-                if (!err) {
-                    b->node[number].flags = node->flags;
-                    b->node[number].owner = node->owner;
-                }
-                if (!err && number > first)
-                    err = add_segment(b, number - 1, number, HM_EDGE_REGULAR, d);
-            }
-            if (!err)
-                err = add_segment(b, number, first, HM_EDGE_REGULAR, d);
-            if (err)
-                return err;
-        }
+        for (size_t i = 0; !err && i < l->nloops; i++)
+            err = add_loop(b, &b->in->meshes[k], l->node + l->start[i], l->elem + l->start[i],
+                           l->start[i + 1] - l->start[i], d);
     }
-    return HM_OK;
+    return err;
 }
 
 /* --- outlines, holes, regions --- */
@@ -422,5 +436,6 @@ enum hm_err hm_assemble(const struct hm_assembly *in, struct hm_domain *dom,
     free(b.hull);
     free(b.node);
     free(b.segment);
+    free(b.beside);
     return err;
 }

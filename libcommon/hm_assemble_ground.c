@@ -157,9 +157,9 @@ static enum hm_err take_edges(struct hm_build *b, struct hm_domain *dom, bool *s
             if (!marks)
                 continue;
         }
-        struct hm_domain_edge edge = {dom->node_of[from], dom->node_of[to], marks, left, right};
+        struct hm_domain_edge edge = {dom->node_of[from], dom->node_of[to], marks, left, right, 0};
         if (edge.a > edge.b) /* one direction, whatever the triangles' numbers */
-            edge = (struct hm_domain_edge){edge.b, edge.a, marks, right, left};
+            edge = (struct hm_domain_edge){edge.b, edge.a, marks, right, left, 0};
         enum hm_err err = hm_domain_add_edge(dom, edge, d);
         if (err)
             return err;
@@ -168,6 +168,19 @@ static enum hm_err take_edges(struct hm_build *b, struct hm_domain *dom, bool *s
     }
     qsort(dom->edge, dom->nedges, sizeof *dom->edge, by_ends);
     return HM_OK;
+}
+
+/* The edges of regular meshes learn which elements are beside. */
+static void note_beside(const struct hm_build *b, struct hm_domain *dom)
+{
+    for (size_t k = 0; k < b->first_breakline; k++) {
+        const struct hm_tri_segment *s = &b->segment[k];
+        int32_t from = dom->node_of[s->a], to = dom->node_of[s->b];
+        const struct hm_domain_edge key = {.a = from < to ? from : to, .b = from < to ? to : from};
+        struct hm_domain_edge *edge = bsearch(&key, dom->edge, dom->nedges, sizeof key, by_ends);
+        if (edge)
+            edge->beside = b->beside[k];
+    }
 }
 
 static int by_value(const void *pa, const void *pb)
@@ -226,8 +239,10 @@ enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm
     enum hm_err err = take_nodes(b, dom, d);
     if (!err)
         err = take_edges(b, dom, &stale, d);
-    if (!err)
-        err = give_heights(b, dom, d);
+    if (err)
+        return err;
+    note_beside(b, dom);
+    err = give_heights(b, dom, d);
     if (!err)
         err = find_median(b, dom, d);
     if (!err)

@@ -28,6 +28,8 @@ struct hm_build {
     size_t nnodes, node_cap, first_point, end_points; /* which of them are measurements */
     struct hm_tri_segment *segment; /* of regular meshes, breaklines, the hull, rings */
     size_t nsegments, segment_cap, first_breakline, first_hull, first_ring;
+    double *beside; /* by segment of a regular mesh: the area of the element there */
+    size_t beside_cap;
     struct hm_tri *tri;
 };
 

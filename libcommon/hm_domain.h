@@ -40,6 +40,7 @@ struct hm_domain_edge {
     int32_t a, b;
     int32_t marks;
     int32_t left, right;
+    double beside; /* m²: the element of a regular mesh on one side; 0: none */
 };
 
 struct hm_domain {

@@ -146,6 +146,38 @@ enum hm_err hm_fence_build(struct hm_fence **out, const struct hm_mesh *mesh, si
     return err;
 }
 
+static int by_value(const void *pa, const void *pb)
+{
+    const double *a = pa, *b = pb;
+    return (*a > *b) - (*a < *b);
+}
+
+enum hm_err hm_fence_median_edge(const struct hm_mesh *mesh, size_t n, double *edge,
+                                 struct hm_diag *d)
+{
+    double *length = NULL;
+    size_t count = 0, cap = 0;
+    enum hm_err err = HM_OK;
+    for (size_t k = 0; !err && k < n; k++) {
+        struct hm_mesh_edge *e;
+        size_t edges;
+        err = hm_mesh_edges(&mesh[k], &e, &edges, d);
+        if (!err && !hm_grow(&length, &cap, count + edges + 1, sizeof *length))
+            err = hm_fail_memory(d);
+        for (size_t i = 0; !err && i < edges; i++) {
+            const struct hm_node *a = &mesh[k].node[e[i].a], *b = &mesh[k].node[e[i].b];
+            if (e[i].right == -1)
+                length[count++] = hypot(b->x - a->x, b->y - a->y);
+        }
+        free(e);
+    }
+    if (!err && count > 0)
+        qsort(length, count, sizeof *length, by_value);
+    *edge = !err && count > 0 ? length[count / 2] : 0;
+    free(length);
+    return err;
+}
+
 const struct hm_mesh_loops *hm_fence_loops(const struct hm_fence *f, size_t k)
 {
     return &f->loops[k];

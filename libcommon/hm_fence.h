@@ -23,6 +23,10 @@ enum hm_err hm_fence_build(struct hm_fence **f, const struct hm_mesh *mesh, size
                            struct hm_diag *d);
 void hm_fence_free(struct hm_fence *f);
 
+/* The median length of the boundary edges of n meshes, m; 0 without any. */
+enum hm_err hm_fence_median_edge(const struct hm_mesh *mesh, size_t n, double *edge,
+                                 struct hm_diag *d);
+
 /* The boundary loops of mesh k. */
 const struct hm_mesh_loops *hm_fence_loops(const struct hm_fence *f, size_t k);
 

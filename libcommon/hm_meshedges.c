@@ -96,6 +96,7 @@ enum hm_err hm_mesh_edges(const struct hm_mesh *m, struct hm_mesh_edge **edges, 
 struct border {
     size_t *first; /* of each node; nnodes + 1 */
     int32_t *to;   /* where the edge goes; -1 once it was walked */
+    int32_t *left; /* the element left of it */
     size_t n;
 };
 
@@ -107,7 +108,8 @@ static bool border_build(struct border *b, const struct hm_mesh_edge *edges, siz
     for (size_t i = 0; i < n; i++)
         b->n += edges[i].right == -1;
     b->to = hm_alloc(b->n, sizeof *b->to);
-    if (!b->first || !b->to)
+    b->left = hm_alloc(b->n, sizeof *b->left);
+    if (!b->first || !b->to || !b->left)
         return false;
     for (size_t i = 0; i < n; i++)
         if (edges[i].right == -1)
@@ -115,8 +117,11 @@ static bool border_build(struct border *b, const struct hm_mesh_edge *edges, siz
     for (size_t k = 0; k < nnodes; k++)
         b->first[k + 2] += b->first[k + 1];
     for (size_t i = 0; i < n; i++) /* leaves first[k] where node k begins */
-        if (edges[i].right == -1)
-            b->to[b->first[edges[i].a + 1]++] = edges[i].b;
+        if (edges[i].right == -1) {
+            size_t place = b->first[edges[i].a + 1]++;
+            b->to[place] = edges[i].b;
+            b->left[place] = edges[i].left;
+        }
     return true;
 }
 
@@ -145,17 +150,20 @@ static size_t next_edge(const struct border *b, const struct hm_mesh *m, int32_t
     return best;
 }
 
-/* Walk the loop that starts with edge `first` at `node`; its nodes go to out. The number of nodes,
- * 0 at a dead end. A loop that touches itself passes a node twice, so only the edge tells its end.
- */
+/* Walk the loop that starts with edge `first` at `node`; its nodes and elements go behind those
+ * that are there. The number of nodes, 0 at a dead end. A loop that touches itself passes a node
+ * twice, so only the edge tells its end. */
 static size_t walk(struct border *b, const struct hm_mesh *m, int32_t node, size_t first,
-                   int32_t *out)
+                   struct hm_mesh_loops *loops)
 {
+    int32_t *nodes = loops->node + loops->start[loops->nloops];
+    int32_t *elems = loops->elem + loops->start[loops->nloops];
     size_t n = 0, edge = first;
     int32_t at = node;
     do {
         int32_t from = at;
-        out[n++] = from;
+        nodes[n] = from;
+        elems[n++] = b->left[edge];
         at = b->to[edge];
         if (edge != first)
             b->to[edge] = -1;
@@ -177,7 +185,7 @@ static enum hm_err walk_all(struct border *b, const struct hm_mesh *m, struct hm
             if (b->to[i] < 0)
                 continue;
             size_t begin = loops->start[loops->nloops];
-            size_t n = walk(b, m, (int32_t)node, i, loops->node + begin);
+            size_t n = walk(b, m, (int32_t)node, i, loops);
             if (n == 0)
                 return hm_fail_at(d, HM_EGEOM, m->node[node].x, m->node[node].y,
                                   "the boundary of the mesh is not closed");
@@ -198,14 +206,14 @@ enum hm_err hm_mesh_boundary_of(const struct hm_mesh *m, const struct hm_mesh_ed
             return hm_fail_at(d, HM_EGEOM, m->node[edges[i].a].x, m->node[edges[i].a].y,
                               "an edge is used more than twice, or twice in one direction");
     struct border b = {0};
-    enum hm_err err;
-    if (border_build(&b, edges, n, m->nnodes) &&
-        (loops->node = hm_alloc(b.n, sizeof *loops->node)) != NULL)
-        err = walk_all(&b, m, loops, d);
-    else
-        err = hm_fail_memory(d);
+    bool built = border_build(&b, edges, n, m->nnodes);
+    loops->node = hm_alloc(b.n, sizeof *loops->node);
+    loops->elem = hm_alloc(b.n, sizeof *loops->elem);
+    enum hm_err err =
+        built && loops->node && loops->elem ? walk_all(&b, m, loops, d) : hm_fail_memory(d);
     free(b.first);
     free(b.to);
+    free(b.left);
     if (err)
         hm_mesh_loops_free(loops);
     return err;
@@ -228,6 +236,7 @@ enum hm_err hm_mesh_boundary(const struct hm_mesh *m, struct hm_mesh_loops *loop
 void hm_mesh_loops_free(struct hm_mesh_loops *loops)
 {
     free(loops->node);
+    free(loops->elem);
     free(loops->start);
     *loops = (struct hm_mesh_loops){0};
 }

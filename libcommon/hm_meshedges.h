@@ -22,6 +22,7 @@ enum hm_err hm_mesh_edges(const struct hm_mesh *m, struct hm_mesh_edge **edges, 
  * each follows the elements that it bounds. HM_EGEOM when an edge is used wrongly. */
 struct hm_mesh_loops {
     int32_t *node;
+    int32_t *elem; /* by place in `node`: the element left of the edge that begins there */
     size_t *start;
     size_t nloops;
 };

@@ -1,4 +1,4 @@
-/* hm_ruppert: an irregular mesh with a minimum angle and a maximum area. Layer 6.
+/* hm_ruppert: an irregular mesh with a minimum angle and a maximum size. Layer 6.
  *
  * Quality refinement of the domain (hm_tri_refine): breaklines, outlines and the borders of regions
  * may be split, boundaries of regular meshes never. The domain stays triangulated.
@@ -6,12 +6,13 @@
 #ifndef HM_RUPPERT_H
 #define HM_RUPPERT_H
 
-#include "hm_domain.h"
+#include "hm_sizes.h"
 #include "hm_tri_refine.h"
 
 struct hm_ruppert_options {
     double min_angle; /* degrees; 0: any */
-    double max_area;  /* m², where a zone has none of its own; 0: any */
+    double growth;    /* as that of hm_tri_quality; 0: any */
+    const struct hm_sizes *sizes;
     int threads;
 };
 

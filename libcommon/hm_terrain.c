@@ -1,5 +1,6 @@
 /* hm_terrain: see hm_terrain.h. */
 #include "hm_terrain.h"
+#include "hm_bilinear.h"
 #include "hm_role.h"
 #include "hm_tin.h"
 
@@ -117,26 +118,6 @@ static double node_z(const struct hm_grid *g, int64_t i, int64_t j)
     return g->v[(size_t)(j * l->nx + i) * g->bands];
 }
 
-/* Between two heights; an end that does not count may be nodata. */
-static double between(double a, double b, double part)
-{
-    return part == 0 ? a : part == 1 ? b : a + part * (b - a);
-}
-
-/* Bilinear in the cell that holds (x, y); NaN outside and beside nodata. */
-static double grid_z(const struct hm_grid *g, double x, double y)
-{
-    const struct hm_lattice *l = &g->header.lattice;
-    double u = (x - l->x0) / l->dx, v = (y - l->y0) / l->dy;
-    if (!(u >= 0 && v >= 0 && u <= (double)(l->nx - 1) && v <= (double)(l->ny - 1)))
-        return NAN;
-    int64_t i = (int64_t)u, j = (int64_t)v;
-    int64_t i1 = i + 1 < l->nx ? i + 1 : i, j1 = j + 1 < l->ny ? j + 1 : j;
-    double fu = u - (double)i, fv = v - (double)j;
-    return between(between(node_z(g, i, j), node_z(g, i1, j), fu),
-                   between(node_z(g, i, j1), node_z(g, i1, j1), fu), fv);
-}
-
 /* Height of the node with data nearest to (x, y): rings of nodes around it, outward, until no
  * farther ring can hold a nearer one. */
 static double grid_nearest(const struct hm_grid *g, double x, double y, double *dist2)
@@ -185,7 +166,7 @@ double hm_terrain_z(const struct hm_terrain *t, double x, double y, int32_t *hin
 {
     double z = NAN;
     for (size_t k = 0; k < t->ngrids && !isfinite(z); k++)
-        z = grid_z(&t->grid[k], x, y);
+        z = hm_bilinear(&t->grid[k], 0, x, y);
     return isfinite(z) ? z : tin_z(t, x, y, hint);
 }
 
@@ -242,7 +223,7 @@ enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, stru
 bool hm_terrain_is_gap(const struct hm_terrain *t, double x, double y, double gap, int32_t *hint)
 {
     for (size_t k = 0; k < t->ngrids; k++)
-        if (isfinite(grid_z(&t->grid[k], x, y)))
+        if (isfinite(hm_bilinear(&t->grid[k], 0, x, y)))
             return false;
     int32_t tri = t->tin.tri ? hm_tri_locate(t->tin.tri, x, y, hint) : HM_TRI_NONE;
     return tri == HM_TRI_NONE || hm_tin_is_gap(&t->tin, tri, gap);

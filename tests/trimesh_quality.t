@@ -47,6 +47,8 @@ trimesh -m quality -a 5 plane.xyz >hull.hm
 holds "without an outline the hull of the measurements" hull.hm \
     'angle >= 20 && area <= 5 && whole == 1600'
 
+printf '>\n10 10 100\n30 20 140\n' >line.txt
+
 # --- regions ---
 
 printf '> region=3 max_area=0.5 closed=1\n10 10\n16 11\n15 17\n> region=3 closed=1\n25 25\n30 25\n30 30\n' >regions.txt
@@ -61,9 +63,70 @@ printf '> region=3 max_area=-1 closed=1\n10 10\n16 11\n15 17\n' >bad.txt
 must_fail "no area below nothing" 2 'max_area=-1 is not an area' \
     trimesh -m quality outline.txt bad.txt plane.xyz
 
+# --- lengths, and sizes by place ---
+
+# edges MESH CONDITION: how many edges meet a condition on x, y (of the middle) and length
+edges() {
+    awk '/^v/ { x[n + 0] = $2; y[n + 0] = $3; n++ }
+        /^t/ { for (i = 2; i < 5; i++) { a = $i; b = $(i == 4 ? 2 : i + 1)
+            print (x[a] + x[b]) / 2, (y[a] + y[b]) / 2, sqrt((x[a] - x[b]) ^ 2 + (y[a] - y[b]) ^ 2) } }' "$1" |
+        awk "{ x = \$1; y = \$2; long = \$3 } $2" | wc -l
+}
+ok "edges up to 3 m" trimesh -m quality -L 3 outline.txt line.txt plane.xyz -o long.hm
+true_that "none is longer, and many nearly as long" "$(edges long.hm 'long > 3') == 0 && $(edges long.hm 'long > 2.4') > 100"
+holds "and no angle is small" long.hm 'angle >= 20'
+sizes() { # a grid 10 m apart, 0 .. 40: 0.6 m at one node in the middle, 8 m elsewhere; nothing east of 35
+    printf '#hm 1 grid text\n#size 5 5\n#origin 0 0\n#step 10 10\n#fields x y z size\n#data\n'
+    awk -v small="$1" 'BEGIN { for (j = 0; j < 5; j++) for (i = 0; i < 5; i++)
+        print 10 * i, 10 * j, 7, i == 2 && j == 2 ? small : i == 4 ? "nan" : 8 }'
+    echo '#end'
+}
+sizes 0.6 >sizes.hm
+ok "a grid of sizes" trimesh -m quality -s sizes.hm outline.txt plane.xyz -o sized.hm
+true_that "small where it says so" "$(edges sized.hm '(x - 20) ^ 2 + (y - 20) ^ 2 < 1 && long > 1.5') == 0"
+true_that "nowhere over it" "$(edges sized.hm 'long > 12') == 0"
+true_that "large away from there" "$(edges sized.hm '(x - 20) ^ 2 + (y - 20) ^ 2 > 100 && long > 4') > 20"
+true_that "its heights are none" "$(awk '/^v/ && ($4 - $2 - 2 * $3) ^ 2 > 1e-20' sized.hm | wc -l) == 0"
+sizes 0 >zero.hm
+must_fail "a size of nothing" 2 '0 is not an edge length.* 20 20' trimesh -m quality -s zero.hm outline.txt plane.xyz
+sizes 1e-7 >tiny.hm
+must_fail "a size beyond all memory" 2 'makes? about' trimesh -m quality -s tiny.hm outline.txt plane.xyz
+must_fail "sizes that are no grid" 2 'not a grid' trimesh -m quality -s plane.xyz outline.txt plane.xyz
+must_fail "that are not there" 2 'missing.hm' trimesh -m quality -s missing.hm outline.txt plane.xyz
+
+# --- gradation ---
+
+# uneven MESH ...: pairs of elements of which one has over twice the area of the other, in one mesh or
+# in several that share nodes by coordinate
+uneven() {
+    awk '/^#hm/ { base = n + 0 }
+        /^v/ { p = $2 " " $3; if (!(p in at)) { at[p] = m + 0; x[m + 0] = $2; y[m + 0] = $3; m++ }
+            v[n + 0] = at[p]; n++ }
+        /^[tq]/ { k = $1 == "t" ? 3 : 4; a = 0
+            for (i = 0; i < k; i++) c[i] = v[base + $(2 + i)]
+            for (i = 0; i < k; i++) { j = (i + 1) % k
+                a += (x[c[i]] - x[0]) * (y[c[j]] - y[0]) - (x[c[j]] - x[0]) * (y[c[i]] - y[0]) }
+            for (i = 0; i < k; i++) { j = (i + 1) % k
+                e = c[i] < c[j] ? c[i] " " c[j] : c[j] " " c[i]
+                if (!(e in area)) area[e] = a
+                else if (a > 2 * area[e] || area[e] > 2 * a) bad++ } }
+        END { print bad + 0 }' "$@"
+}
+printf '> boundary=1 closed=1\n3 3\n37 5\n35 36\n6 34\n> hole=1 closed=1\n20 20\n20.2 20\n20.2 20.2\n20 20.2\n' >speck.txt
+trimesh -m quality -g 0 speck.txt plane.xyz >any.hm
+trimesh -m quality speck.txt plane.xyz >graded.hm
+true_that "around a speck angles alone leave large beside small" "$(uneven any.hm) > 5"
+true_that "gradation leaves none over twice its neighbour" "$(uneven graded.hm) == 0"
+holds "nor a small angle" graded.hm 'angle >= 20 && n < 400'
+trimesh -m quality -q 30 -a 3 speck.txt regions.txt plane.xyz >graded.hm
+true_that "nor with sizes and regions" "$(uneven graded.hm) == 0"
+holds "which hold as well" graded.hm 'angle >= 30 && area <= 3'
+holds "also of the region" "graded.hm 3" 'area <= 3'
+must_fail "a gradation under 1" 2 'gradation of 0.5' trimesh -m quality -g 0.5 plane.xyz
+must_fail "none for the paper's mesh" 2 '-g means nothing' trimesh -l 2 -g 2 plane.xyz
+
 # --- breaklines ---
 
-printf '>\n10 10 100\n30 20 140\n' >line.txt
 ok "a breakline" trimesh -m quality -a 3 outline.txt line.txt plane.xyz -o line.hm
 true_that "is split, and its new nodes have its height" "$(awk '
     /^v/ && int($5 / 2) % 2 { n++; if (($4 - 100 - 2 * ($2 - 10)) ^ 2 > 1e-18) bad++ }
@@ -89,7 +152,7 @@ grep '^[vt]' flood.hm >a
 grep '^[vt]' flood1.hm >b
 same "and in another order of the measurements" a b
 ok "its boundary stays whole: both make one mesh" sh -c 'stitch --quiet main.hm flood1.hm >hybrid.hm'
-trimesh -m quality -q 25 -a 22 survey.xyz breaklines.hm lines.txt main.hm 2>said >flood.hm
+trimesh -m quality -q 25 -a 22 -g 0 survey.xyz breaklines.hm lines.txt main.hm 2>said >flood.hm
 # free_small MESH ANGLE: elements with a smaller angle and without any fixed node
 free_small() {
     awk -v least="$2" '
@@ -103,15 +166,18 @@ free_small() {
         END { print bad + 0 }' "$1"
 }
 true_that "angles under 25 degrees are left at lines and regular meshes only" "$(free_small flood1.hm 24.9999) == 0"
+true_that "gradation: across the seam, too, few elements are over twice their neighbour" \
+    "$(uneven flood1.hm main.hm) * 50 < $(uneven flood.hm main.hm) * 4"
+holds "and no angle is bad" flood1.hm 'angle > 9'
 ok "and are said" grep -q 'under 25 degrees left' said
-holds "and none is bad" flood1.hm 'angle > 10'
+holds "and none is bad" flood.hm 'angle > 10'
 ok "measurements are no nodes: none is left out" sh -c '! grep measurements said'
 
 # --- refusals ---
 
 must_fail "an angle that cannot be reached" 2 '0 to 34' trimesh -m quality -q 35 plane.xyz
 must_fail "no area" 2 'max-area' trimesh -m quality -a 0 plane.xyz
-must_fail "a mesh beyond all memory" 2 'makes about .* nodes' trimesh -m quality -a 1e-7 plane.xyz
+must_fail "a mesh beyond all memory" 2 'makes? about .* nodes' trimesh -m quality -a 1e-7 plane.xyz
 must_fail "an angle for the paper's mesh" 2 '-q means nothing' trimesh -l 2 -q 20 plane.xyz
 must_fail "lengths for this one" 2 '-l means nothing' trimesh -m quality -l 2 plane.xyz
 printf '> boundary=1 closed=1\n100 100\n120 100\n120 120\n' >away.txt

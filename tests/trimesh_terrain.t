@@ -47,6 +47,12 @@ trimesh --quiet -m terrain -e 0.3 -q 28 -a 40 hills.xyz >good.hm
 true_that "and good angles on top" "$(quality --quiet good.hm hills.xyz |
     awk '/smallest angle  / { print $3 }') >= 28"
 
+trimesh --quiet -m terrain -e 0.3 -L 5 hills.xyz >short.hm
+true_that "or edges" "$(awk '/^v/ { x[n + 0] = $2; y[n + 0] = $3; n++ }
+    /^t/ { for (i = 2; i < 5; i++) { a = $i; b = $(i == 4 ? 2 : i + 1)
+        if ((x[a] - x[b]) ^ 2 + (y[a] - y[b]) ^ 2 > 25) bad++ } }
+    END { print bad + 0 }' short.hm) == 0"
+
 # --- fitted heights ---
 
 trimesh --quiet -m quality -a 20 -z fit plane.xyz >fit.hm
@@ -78,7 +84,7 @@ ok "beside a regular mesh both make one" sh -c 'stitch --quiet main.hm flood1.hm
 must_fail "neither error nor budget" 2 'needs a maximum error' trimesh -m terrain hills.xyz
 must_fail "no error" 2 'max-error' trimesh -m terrain -e 0 hills.xyz
 must_fail "an error for the paper's mesh" 2 '-e means nothing' trimesh -l 2 -e 1 hills.xyz
-must_fail "edges up to a length" 2 '-L means nothing' trimesh -m terrain -e 1 -L 2 hills.xyz
+must_fail "edges up to a length, without any" 2 '-L means nothing' trimesh -m delaunay -L 2 hills.xyz
 must_fail "the neighbours' mean" 2 'mean means nothing' trimesh -m terrain -e 1 -z mean hills.xyz
 printf '#hm 1 grid text\n#size 2 2\n#origin 0 0\n#step 9 9\n#fields x y z\n#data\n0 0 7\n9 0 7\n0 9 7\n9 9 7\n#end\n' >flat.hm
 printf '> boundary=1 closed=1\n1 1\n8 1\n8 8\n' >outline.txt

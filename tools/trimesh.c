@@ -6,6 +6,8 @@
 #include "hm_assemble.h"
 #include "hm_cli.h"
 #include "hm_elem.h"
+#include "hm_even.h"
+#include "hm_fence.h"
 #include "hm_fit.h"
 #include "hm_greedy.h"
 #include "hm_owners.h"
@@ -30,14 +32,18 @@ enum { MOST_ANGLE = 34 }; /* degrees; refinement need not end beyond */
 /* What the regular meshes keep clear at least (m): lidar's own resolution. */
 #define LEAST_CLEARANCE 0.001
 
+/* Sizes of a grid grow by no more than this a unit of the way. */
+#define GRID_GROWTH 0.3
+
 static struct {
     int method, elevation, line_z;
-    double min_edge, max_edge, min_angle, max_area, max_error, clearance;
+    double min_edge, max_edge, min_angle, max_area, gradation, max_error, clearance;
     int max_nodes;
-    bool min_given, max_given, angle_given, area_given, error_given, nodes_given, clearance_given;
+    bool min_given, max_given, angle_given, area_given, gradation_given, error_given, nodes_given,
+        clearance_given, smooth_given;
     int smooth;
-    const char *steps;
-} cmd = {.method = PAPER, .min_angle = 20, .smooth = 5};
+    const char *sizes, *steps;
+} cmd = {.method = PAPER, .min_angle = 20, .gradation = 2, .smooth = 5};
 
 static const struct hm_option options[] = {
     {'m', "method", "METHOD", HM_OPT_CHOICE, &cmd.method,
@@ -46,11 +52,17 @@ static const struct hm_option options[] = {
     {'l', "min-edge", "M", HM_OPT_POSITIVE, &cmd.min_edge, .help = "minimum edge length, m",
      .given = &cmd.min_given},
     {'L', "max-edge", "M", HM_OPT_POSITIVE, &cmd.max_edge,
-     .help = "maximum edge length, m (default 2.5 times the minimum)", .given = &cmd.max_given},
+     .help = "maximum edge length, m (default with paper: 2.5 times the minimum)",
+     .given = &cmd.max_given},
     {'q', "min-angle", "DEGREES", HM_OPT_NUMBER, &cmd.min_angle,
      .help = "minimum angle, at most 34 degrees (default 20)", .given = &cmd.angle_given},
     {'a', "max-area", "M2", HM_OPT_POSITIVE, &cmd.max_area,
      .help = "maximum area of an element, m2 (default: any)", .given = &cmd.area_given},
+    {'s', "sizes", "FILE", HM_OPT_TEXT, &cmd.sizes,
+     .help = "maximum edge lengths by place, m: this grid", .silent = true},
+    {'g', "gradation", "RATIO", HM_OPT_NUMBER, &cmd.gradation,
+     .help = "largest ratio of areas of neighbours, or 0 (default 2, terrain 0)",
+     .given = &cmd.gradation_given},
     {'e', "max-error", "M", HM_OPT_POSITIVE, &cmd.max_error,
      .help = "maximum vertical error at measurements, m (default: as -N allows)",
      .given = &cmd.error_given},
@@ -58,7 +70,7 @@ static const struct hm_option options[] = {
      .help = "maximum number of nodes, before refinement (default: as -e wants)",
      .given = &cmd.nodes_given},
     {'i', "smooth", "N", HM_OPT_NATURAL, &cmd.smooth,
-     .help = "passes of Laplace smoothing (default 5)"},
+     .help = "passes of Laplace smoothing (default 5)", .given = &cmd.smooth_given},
     {'z', "elevation", "FROM", HM_OPT_CHOICE, &cmd.elevation,
      .help = "heights: the terrain, neighbours' mean, or fitted (default terrain)",
      .choices = "terrain|mean|fit"},
@@ -101,6 +113,14 @@ static void check_angle(struct hm_cli *cli)
                    MOST_ANGLE);
 }
 
+static void check_gradation(struct hm_cli *cli)
+{
+    if (cmd.method != QUALITY && !cmd.gradation_given)
+        cmd.gradation = 0;
+    if (cmd.gradation != 0 && !(cmd.gradation > 1))
+        hm_cli_die(cli, "a gradation of %g: more than 1, or 0 for any", cmd.gradation);
+}
+
 /* An option that another method understands. */
 static void refuse(struct hm_cli *cli, bool given, const char *option, const char *method)
 {
@@ -126,17 +146,19 @@ static void check_command(struct hm_cli *cli)
     refuse(cli, cmd.method != PAPER && cmd.elevation == Z_MEAN, "-z mean", name[cmd.method]);
     refuse(cli, !refines && cmd.angle_given, "-q", name[cmd.method]);
     refuse(cli, !refines && cmd.area_given, "-a", name[cmd.method]);
+    refuse(cli, !refines && cmd.sizes, "-s", name[cmd.method]);
+    refuse(cli, !refines && cmd.gradation_given, "-g", name[cmd.method]);
     refuse(cli, cmd.method == QUALITY && cmd.min_given, "-l", name[cmd.method]);
-    refuse(cli, cmd.method != PAPER && cmd.max_given, "-L", name[cmd.method]);
+    refuse(cli, cmd.method == DELAUNAY && cmd.min_given, "-l", name[cmd.method]);
+    refuse(cli, cmd.method == DELAUNAY && cmd.max_given, "-L", name[cmd.method]);
+    refuse(cli, (cmd.method == DELAUNAY || cmd.method == QUALITY) && cmd.smooth_given, "-i",
+           name[cmd.method]);
     refuse(cli, cmd.method != TERRAIN && cmd.error_given, "-e", name[cmd.method]);
     refuse(cli, cmd.method != TERRAIN && cmd.nodes_given, "-N", name[cmd.method]);
     if (cmd.method == TERRAIN && !cmd.error_given && cmd.max_nodes == 0)
         hm_cli_die(cli, "-m terrain needs a maximum error (-e) or number of nodes (-N)");
     check_angle(cli);
-    /* half the minimum edge, or a quarter of the side of the largest element with equal sides */
-    if (!cmd.clearance_given)
-        cmd.clearance = fmax(cmd.min_edge / 2, sqrt(cmd.max_area * 4 / sqrt(3)) / 4);
-    cmd.clearance = fmax(cmd.clearance, LEAST_CLEARANCE);
+    check_gradation(cli);
     if (cmd.steps)
         make_steps_folder(cli);
 }
@@ -264,6 +286,19 @@ static void make_header(struct hm_cli *cli, struct hm_inputs *in, struct hm_head
     free(owners);
 }
 
+/* Half the minimum edge, or a quarter of the side of the largest element: of those beside regular
+ * meshes, when no size is given. */
+static void choose_clearance(struct hm_cli *cli, const struct hm_inputs *in)
+{
+    struct hm_diag d = {0};
+    double side = cmd.max_edge > 0 ? cmd.max_edge : sqrt(cmd.max_area * 4 / sqrt(3));
+    if (cmd.clearance_given)
+        return;
+    if (side == 0)
+        hm_cli_check(cli, hm_fence_median_edge(in->mesh, in->nmeshes, &side, &d), &d);
+    cmd.clearance = fmax(cmd.min_given ? cmd.min_edge / 2 : side / 4, LEAST_CLEARANCE);
+}
+
 static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                      const struct hm_terrain *terrain, struct hm_domain *dom)
 {
@@ -323,21 +358,67 @@ static void say_refined(struct hm_cli *cli, const struct hm_tri_refined *r)
                    "regular meshes; the smallest, %.3g degrees, at %.10g %.10g",
                    hm_cli_counted(r->small, "element").text, cmd.min_angle, r->smallest, r->x,
                    r->y);
-    if (r->large > 0)
-        hm_cli_say(cli, "%s over the maximum area left, at regular meshes",
+    if (r->large > 0 && (cmd.max_area > 0 || cmd.max_edge > 0 || cmd.sizes))
+        hm_cli_say(cli, "%s over the maximum size left, at regular meshes",
                    hm_cli_counted(r->large, "element").text);
 }
 
-static void bring_to_angles(struct hm_cli *cli, struct hm_domain *dom)
+/* The grid of sizes; one without a size when the user gave none. */
+static void read_sizes(struct hm_cli *cli, struct hm_grid *grid, size_t *band)
+{
+    struct hm_diag d = {0};
+    struct hm_reader *r;
+    struct hm_header h;
+    if (!cmd.sizes)
+        return;
+    hm_cli_check(cli, hm_reader_open(&r, cmd.sizes, &d), &d);
+    hm_cli_check(cli, hm_reader_next(r, &h, &d), &d);
+    if (h.kind != HM_GRID)
+        hm_cli_die(cli, "%s: not a grid", cmd.sizes);
+    int column = hm_header_field(&h, "size");
+    *band = column < 2 ? 0 : (size_t)column - 2;
+    hm_cli_check(cli, hm_grid_read(grid, r, &h, &d), &d);
+    hm_reader_close(r);
+    hm_cli_check(cli, hm_sizes_limit(grid, *band, GRID_GROWTH, &d), &d);
+}
+
+/* Edges grow by the root of what areas may. */
+static void even_out(struct hm_cli *cli, struct hm_domain *dom, const struct hm_sizes *sizes,
+                     double min_angle)
+{
+    struct hm_diag d = {0};
+    struct hm_even_left left;
+    const struct hm_even_options o = {.ratio = cmd.gradation,
+                                      .min_angle = min_angle,
+                                      .sizes = sizes,
+                                      .threads = hm_cli_threads(cli)};
+    hm_cli_check(cli, hm_even_reach(dom, &o, &left, &d), &d);
+    if (left.pairs > 0)
+        hm_cli_say(cli,
+                   "%s of over %g times another's area left between fixed nodes, %lld at "
+                   "regular meshes; the largest ratio, %.3g, at %.10g %.10g",
+                   hm_cli_counted(left.pairs, "element").text, cmd.gradation,
+                   (long long)left.regular, left.worst, left.x, left.y);
+}
+
+static void bring_to_sizes(struct hm_cli *cli, struct hm_domain *dom)
 {
     struct hm_diag d = {0};
     struct hm_tri_refined left;
+    struct hm_grid grid = {0};
+    struct hm_sizes sizes = {.dom = dom, .max_area = cmd.max_area, .max_edge = cmd.max_edge};
+    read_sizes(cli, &grid, &sizes.band);
+    sizes.grid = cmd.sizes ? &grid : NULL;
     const struct hm_ruppert_options o = {
         .min_angle = cmd.method == QUALITY || cmd.angle_given ? cmd.min_angle : 0,
-        .max_area = cmd.max_area,
+        .growth = cmd.gradation > 0 ? sqrt(cmd.gradation) - 1 : 0,
+        .sizes = &sizes,
         .threads = hm_cli_threads(cli)};
     hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left, &d), &d);
     say_refined(cli, &left);
+    if (cmd.gradation > 0)
+        even_out(cli, dom, &sizes, o.min_angle);
+    hm_grid_free(&grid);
 }
 
 static void bring_to_error(struct hm_cli *cli, const double *xyz, size_t n, struct hm_domain *dom)
@@ -356,8 +437,8 @@ static void bring_to_error(struct hm_cli *cli, const double *xyz, size_t n, stru
     if (done.error > cmd.max_error)
         hm_cli_say(cli, "the largest vertical error left is %.3g m, at %.10g %.10g", done.error,
                    done.x, done.y);
-    if (cmd.angle_given || cmd.area_given)
-        bring_to_angles(cli, dom);
+    if (cmd.angle_given || cmd.area_given || cmd.max_given || cmd.sizes || cmd.gradation > 0)
+        bring_to_sizes(cli, dom);
 }
 
 /* New and moved nodes get the terrain's height. */
@@ -424,11 +505,12 @@ int main(int argc, char **argv)
     hm_cli_stage(cli, "the terrain");
     struct hm_terrain *terrain = build_terrain(cli, &in);
     hm_cli_stage(cli, "points, lines and meshes");
+    choose_clearance(cli, &in);
     assemble(cli, &in, terrain, &dom);
     if (cmd.method == PAPER)
         bring_to_lengths(cli, &mesh.header, &dom);
     if (cmd.method == QUALITY)
-        bring_to_angles(cli, &dom);
+        bring_to_sizes(cli, &dom);
     double *xyz = NULL;
     size_t n = 0;
     if (cmd.method == TERRAIN || cmd.elevation == Z_FIT)

@@ -22,7 +22,7 @@ static void close_outline(struct hm_domain *dom, int32_t n)
 {
     for (int32_t i = 0; i < n; i++)
         hm_domain_add_edge(
-            dom, (struct hm_domain_edge){i, (i + 1) % n, HM_EDGE_BORDER, 0, HM_OUTSIDE}, NULL);
+            dom, (struct hm_domain_edge){i, (i + 1) % n, HM_EDGE_BORDER, 0, HM_OUTSIDE, 0}, NULL);
 }
 
 enum { MOST = 64 };

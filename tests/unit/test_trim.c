@@ -25,7 +25,7 @@ static int32_t add_node(struct hm_domain *dom, double x, double y)
 static void add_edge(struct hm_domain *dom, int32_t a, int32_t b, int32_t marks)
 {
     int32_t right = marks == HM_EDGE_BORDER ? HM_OUTSIDE : 0;
-    hm_domain_add_edge(dom, (struct hm_domain_edge){a, b, marks, 0, right}, NULL);
+    hm_domain_add_edge(dom, (struct hm_domain_edge){a, b, marks, 0, right, 0}, NULL);
 }
 
 enum { MEETING = 4 };

@@ -13,11 +13,13 @@ SCHEME     := bsgrid slope breaklines bsmesh trimesh stitch quality
 COMPANIONS := georef hmconv hmdraw
 
 # hmdraw draws with cairo, georef computes with GeographicLib, which is C++; without them all other
-# programs are built.
+# programs are built. hmconv reads GeoJSON by jansson; without it, all else.
 CAIRO_CFLAGS := $(shell pkg-config --cflags cairo 2>/dev/null)
 CAIRO_LIBS   := $(shell pkg-config --libs cairo 2>/dev/null)
 GEOD_CFLAGS  := $(shell pkg-config --cflags geographiclib 2>/dev/null)
 GEOD_LIBS    := $(if $(shell command -v $(CXX)),$(shell pkg-config --libs geographiclib 2>/dev/null))
+JSON_CFLAGS  := $(shell pkg-config --cflags jansson 2>/dev/null)
+JSON_LIBS    := $(shell pkg-config --libs jansson 2>/dev/null)
 MISSING      := $(if $(CAIRO_LIBS),,hmdraw) $(if $(GEOD_LIBS),,georef)
 PROGRAMS     := $(SCHEME) $(filter-out $(MISSING),$(COMPANIONS))
 
@@ -52,6 +54,7 @@ SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] too
 
 all: $(BIN)
 	$(Q)$(if $(CAIRO_LIBS),:,echo "hmdraw is not built: it needs cairo (make deps installs it)")
+	$(Q)$(if $(JSON_LIBS),:,echo "hmconv reads no GeoJSON: it needs jansson (make deps installs it)")
 	$(Q)$(if $(GEOD_LIBS),:,echo "georef is not built: it needs g++ and GeographicLib (make deps installs them)")
 
 help:
@@ -78,6 +81,9 @@ $(LIB): $(LIB_OBJ)
 	$(if $(Q),@echo "  AR      $@")
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 
+# Needed by hmconv alone: who does not import, does not link jansson.
+$(B)/obj/hm_import_geojson.o $(B)/fuzz/obj/hm_import_geojson.o: HM_CFLAGS += $(if $(JSON_LIBS),-DHM_JANSSON $(JSON_CFLAGS))
+
 # The one file in C++, linked to georef alone: libhm.a is free of it.
 $(B)/obj/hm_geod.o: libcommon/hm_geod.cpp
 	@mkdir -p $(@D)
@@ -88,6 +94,7 @@ $(B)/obj/hm_geod.o: libcommon/hm_geod.cpp
 .SECONDEXPANSION:
 $(B)/bin/hmdraw: EXTRA_CFLAGS = $(CAIRO_CFLAGS)
 $(B)/bin/hmdraw: EXTRA_LIBS = $(CAIRO_LIBS)
+$(B)/bin/hmconv: EXTRA_LIBS = $(JSON_LIBS)
 $(B)/bin/georef: $(B)/obj/hm_geod.o
 $(B)/bin/georef: EXTRA_LIBS = $(B)/obj/hm_geod.o $(GEOD_LIBS) -lstdc++
 $(B)/bin/%: tools/%.c $$(wildcard tools/$$*/*.[ch]) $(LIB)

@@ -193,3 +193,50 @@ enum hm_err hm_attr_check(const char *attrs, struct hm_diag *d)
                            item.mistake);
     return HM_OK;
 }
+
+/* Append an attribute, or put its value in the place of that of an earlier one. */
+static bool list_item(struct hm_attr_list *list, const struct item *item)
+{
+    size_t k = 0, room = 2 + (item->value ? (size_t)(item->value_end - item->value) : 0);
+    while (k < list->n && !has_key(item, list->item[k].key))
+        k++;
+    char *value = hm_alloc(room, 1);
+    if (!value || !hm_grow(&list->item, &list->cap, k + 1, sizeof *list->item)) {
+        free(value);
+        return false;
+    }
+    unquote(item, value, room);
+    if (k == list->n)
+        list->item[list->n++] =
+            (struct hm_attr){strndup(item->key, (size_t)(item->key_end - item->key)), NULL};
+    free(list->item[k].value);
+    list->item[k].value = value;
+    return list->item[k].key != NULL;
+}
+
+bool hm_attr_list_read(struct hm_attr_list *list, const char *attrs)
+{
+    struct item item;
+    for (const char *p = attrs ? attrs : ""; take_item(&p, &item);)
+        if (!list_item(list, &item))
+            return false;
+    return true;
+}
+
+const char *hm_attr_list_get(const struct hm_attr_list *list, const char *key)
+{
+    for (size_t k = 0; k < list->n; k++)
+        if (!strcmp(list->item[k].key, key))
+            return list->item[k].value;
+    return NULL;
+}
+
+void hm_attr_list_free(struct hm_attr_list *list)
+{
+    for (size_t k = 0; k < list->n; k++) {
+        free(list->item[k].key);
+        free(list->item[k].value);
+    }
+    free(list->item);
+    *list = (struct hm_attr_list){0};
+}

@@ -24,6 +24,20 @@ bool hm_attr_flag(const char *attrs, const char *key);
  * NULL. The other attributes keep order and bytes. Free with free(). NULL when memory is short. */
 char *hm_attr_set(const char *attrs, const char *key, const char *value);
 
+/* The attributes one by one, unquoted, in order; of several with one key the last. Begins as
+ * `= {0}`, emptied by hm_attr_list_free. False when memory is short. */
+struct hm_attr {
+    char *key, *value;
+};
+struct hm_attr_list {
+    struct hm_attr *item;
+    size_t n, cap;
+};
+bool hm_attr_list_read(struct hm_attr_list *list, const char *attrs);
+/* The value of a key; NULL when it is not there. */
+const char *hm_attr_list_get(const struct hm_attr_list *list, const char *key);
+void hm_attr_list_free(struct hm_attr_list *list);
+
 /* Is the whole string well formed? On failure the reason is in d. */
 enum hm_err hm_attr_check(const char *attrs, struct hm_diag *d);
 

@@ -182,18 +182,6 @@ struct hm_reader *hm_cli_reader(struct hm_cli *cli)
 
 /* --- all inputs at once --- */
 
-/* One more container of `size` bytes, cleared, at the end of *items. */
-static void *append(struct hm_cli *cli, void *items, size_t *n, size_t size)
-{
-    char *old, *grown;
-    memcpy(&old, items, sizeof old);
-    grown = *n < PTRDIFF_MAX / size - 1 ? realloc(old, (*n + 1) * size) : NULL;
-    if (!grown)
-        hm_cli_die(cli, "out of memory");
-    memcpy(items, &grown, sizeof grown);
-    return memset(grown + (*n)++ * size, 0, size);
-}
-
 void hm_cli_read_points(struct hm_cli *cli, struct hm_points *p, struct hm_header *h)
 {
     struct hm_diag d = {0};
@@ -202,6 +190,14 @@ void hm_cli_read_points(struct hm_cli *cli, struct hm_points *p, struct hm_heade
     for (size_t had = 0; !(err = hm_points_more(p, cli->reader, &d)); had = p->n)
         hm_cli_progress_points(cli, p->n - had);
     hm_cli_check(cli, err, &d);
+}
+
+/* What there was memory for. */
+static void *got(struct hm_cli *cli, void *item)
+{
+    if (!item)
+        hm_cli_die(cli, "out of memory");
+    return item;
 }
 
 void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in)
@@ -213,19 +209,16 @@ void hm_cli_read_all(struct hm_cli *cli, struct hm_inputs *in)
         enum hm_err err = HM_OK;
         switch (h.kind) {
         case HM_POINTS:
-            hm_cli_read_points(cli, append(cli, &in->points, &in->npoints, sizeof *in->points), &h);
+            hm_cli_read_points(cli, got(cli, hm_inputs_add_points(in)), &h);
             break;
         case HM_GRID:
-            err = hm_grid_read(append(cli, &in->grid, &in->ngrids, sizeof *in->grid), cli->reader,
-                               &h, &d);
+            err = hm_grid_read(got(cli, hm_inputs_add_grid(in)), cli->reader, &h, &d);
             break;
         case HM_LINES:
-            err = hm_lines_read(append(cli, &in->lines, &in->nlines, sizeof *in->lines),
-                                cli->reader, &h, &d);
+            err = hm_lines_read(got(cli, hm_inputs_add_lines(in)), cli->reader, &h, &d);
             break;
         default:
-            err = hm_mesh_read(append(cli, &in->mesh, &in->nmeshes, sizeof *in->mesh), cli->reader,
-                               &h, &d);
+            err = hm_mesh_read(got(cli, hm_inputs_add_mesh(in)), cli->reader, &h, &d);
             break;
         }
         hm_cli_check(cli, err, &d);

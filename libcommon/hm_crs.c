@@ -168,3 +168,37 @@ bool hm_crs_parse(struct hm_crs *crs, const char *text)
         }
     return false;
 }
+
+int hm_crs_epsg(const char *text)
+{
+    struct hm_crs crs;
+    if (!strncasecmp(text, "EPSG:", 5)) {
+        int code = whole(text + 5, strlen(text + 5));
+        return code > 0 ? code : 0;
+    }
+    if (!hm_crs_parse(&crs, text))
+        return 0;
+    switch (crs.kind) {
+    case HM_CRS_LONLAT:
+        return 4326;
+    case HM_CRS_UTM:
+        return (crs.north ? 32600 : 32700) + crs.zone;
+    case HM_CRS_UPS:
+        return crs.north ? 32661 : 32761;
+    default:
+        return 0;
+    }
+}
+
+bool hm_crs_same(const char *a, const char *b)
+{
+    struct hm_crs p, q;
+    char s[HM_CRS_CHARS], t[HM_CRS_CHARS];
+    if (!strcmp(a, b))
+        return true;
+    if (!hm_crs_parse(&p, a) || !hm_crs_parse(&q, b))
+        return false;
+    hm_crs_print(s, &p);
+    hm_crs_print(t, &q);
+    return !strcmp(s, t);
+}

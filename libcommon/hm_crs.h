@@ -42,6 +42,13 @@ void hm_crs_print(char text[HM_CRS_CHARS], const struct hm_crs *crs);
  * hm_header_need_metres finds them. False when it is no such text. */
 bool hm_crs_parse(struct hm_crs *crs, const char *text);
 
+/* The EPSG code of the text of a system: that of "EPSG:n", or of one of the above; 0: it has none.
+ */
+int hm_crs_epsg(const char *text);
+
+/* Do two texts say the same system? */
+bool hm_crs_same(const char *a, const char *b);
+
 /* A zone alone: `32N`, `5s`, `32` (*half false: the hemisphere is not said), `N` or `S` (UPS). */
 bool hm_crs_parse_zone(struct hm_crs *crs, bool *half, const char *text);
 

@@ -2,6 +2,7 @@
 
 #include "hm_attr.h"
 #include "hm_num.h"
+#include "hm_sink.h"
 #include "hm_strings.h"
 
 #include <math.h>
@@ -199,6 +200,27 @@ enum hm_err hm_export_xyz(const double *rows, size_t n, size_t stride, int decim
             return err;
     }
     return HM_OK;
+}
+
+enum hm_err hm_export_csv_names(char *const *fields, size_t n, struct hm_writer *w,
+                                struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (size_t k = 0; k < n && !err; k++)
+        err = hm_writer_printf(w, d, "%s%c", fields[k], k + 1 < n ? ',' : '\n');
+    return err;
+}
+
+enum hm_err hm_export_csv(const double *rows, size_t n, size_t stride, int decimals,
+                          struct hm_writer *w, struct hm_diag *d)
+{
+    struct hm_sink s = hm_sink_to(w, d);
+    for (size_t k = 0; k < n * stride; k++) {
+        if (!isnan(rows[k]))
+            hm_sink_number(&s, rows[k], decimals);
+        hm_sink_text(&s, (k + 1) % stride ? "," : "\n");
+    }
+    return hm_sink_finish(&s);
 }
 
 enum hm_err hm_export_gmt(const struct hm_line *line, int decimals, struct hm_writer *w,

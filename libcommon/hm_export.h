@@ -6,9 +6,7 @@
 #ifndef HM_EXPORT_H
 #define HM_EXPORT_H
 
-#include "hm_grid.h"
-#include "hm_line.h"
-#include "hm_mesh.h"
+#include "hm_inputs.h"
 #include "hm_writer.h"
 
 /* SMS 2dm: MESH2D, MESHNAME, ND id x y z, E3T id a b c material, E4Q …; ids from 1. Keys `#string
@@ -63,9 +61,47 @@ enum hm_err hm_export_asc(const struct hm_grid *g, size_t band, int decimals, st
 enum hm_err hm_export_xyz(const double *rows, size_t n, size_t stride, int decimals,
                           int64_t *left_out, struct hm_writer *w, struct hm_diag *d);
 
+/* Points with all their columns: names once (hm_export_csv_names), then a line with commas each;
+ * what is missing is empty. */
+enum hm_err hm_export_csv_names(char *const *fields, size_t n, struct hm_writer *w,
+                                struct hm_diag *d);
+enum hm_err hm_export_csv(const double *rows, size_t n, size_t stride, int decimals,
+                          struct hm_writer *w, struct hm_diag *d);
+
 /* GMT multisegment: "> attributes", a line "x y z" a vertex; the first vertex of a closed line is
  * repeated at its end. */
 enum hm_err hm_export_gmt(const struct hm_line *line, int decimals, struct hm_writer *w,
                           struct hm_diag *d);
+
+/* --- features for a GIS ---
+ *
+ * All points and lines of the inputs, points with their columns and lines with their attributes as
+ * properties; closed lines are polygons. What lacks a height is written without; a line of which
+ * only some vertices have one loses those, and *flat counts these lines. */
+
+/* GeoJSON: with the member "crs" unless that is longitude and latitude; null when there is none. */
+enum hm_err hm_export_geojson(const struct hm_inputs *in, int decimals, int64_t *flat,
+                              struct hm_writer *w, struct hm_diag *d);
+/* A table with commas, the geometries in a column WKT. */
+enum hm_err hm_export_wkt(const struct hm_inputs *in, int decimals, int64_t *flat,
+                          struct hm_writer *w, struct hm_diag *d);
+/* OGR_GMT: GMT multisegment with attributes and crs (when it has an EPSG code) in comments; lines
+ * alone, closed ones with the first vertex repeated. */
+enum hm_err hm_export_ogrgmt(const struct hm_inputs *in, int decimals, struct hm_writer *w,
+                             struct hm_diag *d);
+
+/* --- Triangle --- */
+
+/* .node: points, z and the further columns as attributes; or the nodes of a mesh of the inputs,
+ * with a marker of 1 on its boundary. */
+enum hm_err hm_export_node(const struct hm_inputs *in, struct hm_writer *w, struct hm_diag *d);
+/* .ele: the elements of a mesh of triangles, their regions as an attribute. */
+enum hm_err hm_export_ele(const struct hm_mesh *m, struct hm_writer *w, struct hm_diag *d);
+/* .poly: points and vertices of lines as nodes, those of one place once; a segment has the number
+ * of its line, from 2, as a marker, and a comment before it says the attributes. Closed lines with
+ * hole=1 make a hole, those with region= a region. *heights counts vertices whose height is that of
+ * another at their place. */
+enum hm_err hm_export_poly(const struct hm_inputs *in, int64_t *heights, struct hm_writer *w,
+                           struct hm_diag *d);
 
 #endif

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum nc_tag { NC_DIMENSION = 10, NC_VARIABLE = 11, NC_ATTRIBUTE = 12 };
 enum nc_type { NC_CHAR = 2, NC_INT = 4, NC_DOUBLE = 6 };
@@ -246,25 +245,6 @@ static void put_data(struct hm_sink *s, const struct file *f)
 
 /* --- the system of coordinates --- */
 
-static int32_t epsg_of(const char *text)
-{
-    struct hm_crs crs;
-    if (!strncasecmp(text, "EPSG:", 5))
-        return (int32_t)strtol(text + 5, NULL, 10);
-    if (!hm_crs_parse(&crs, text))
-        return 0;
-    switch (crs.kind) {
-    case HM_CRS_LONLAT:
-        return 4326;
-    case HM_CRS_UTM:
-        return (crs.north ? 32600 : 32700) + crs.zone;
-    case HM_CRS_UPS:
-        return crs.north ? 32661 : 32761;
-    default:
-        return 0;
-    }
-}
-
 static void set_system(struct file *f)
 {
     const struct hm_header *h = &f->m->header;
@@ -281,7 +261,7 @@ static void set_system(struct file *f)
         f->var[NODE_Z].att[6] = (struct att){0};
         return;
     }
-    int32_t epsg = epsg_of(text);
+    int32_t epsg = hm_crs_epsg(text);
     f->var[SYSTEM].att[0] = (struct att){"name", text, 0};
     if (epsg > 0)
         f->var[SYSTEM].att[1] = (struct att){"epsg", NULL, epsg};

@@ -1,5 +1,7 @@
 #include "hm_header.h"
 
+#include "hm_crs.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -307,7 +309,7 @@ static bool is_own(const char *key)
 enum hm_err hm_header_merge(struct hm_header *h, const struct hm_header *from, struct hm_diag *d)
 {
     const char *crs = hm_header_get(h, "crs"), *other = hm_header_get(from, "crs");
-    if (crs && other && strcmp(crs, other))
+    if (crs && other && !hm_crs_same(crs, other))
         return hm_fail(d, HM_EFORMAT, "inputs differ in their crs: \"%s\" and \"%s\"", crs, other);
     if (units_differ(h, from))
         return hm_fail(d, HM_EFORMAT, "inputs differ in their units: %s and %s",

@@ -5,6 +5,7 @@
 #include "hm_ids.h"
 #include "hm_import.h"
 #include "hm_input.h"
+#include "hm_inputs.h"
 
 bool hm_import_is_ugrid(const char *s, const char *end);
 bool hm_import_is_slf(const char *s, const char *end);
@@ -13,6 +14,9 @@ bool hm_import_is_kalypso(const char *s, const char *end);
 bool hm_import_is_msh(const char *s, const char *end);
 bool hm_import_is_ply(const char *s, const char *end);
 bool hm_import_is_vtk(const char *s, const char *end);
+bool hm_import_is_geojson(const char *s, const char *end);
+bool hm_import_is_wkt(const char *s, const char *end);
+bool hm_import_is_triangle(const char *s, const char *end);
 enum hm_err hm_import_ugrid(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
 enum hm_err hm_import_slf(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
 enum hm_err hm_import_gr3(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
@@ -20,6 +24,9 @@ enum hm_err hm_import_kalypso(struct hm_input *in, struct hm_mesh *m, struct hm_
 enum hm_err hm_import_msh(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
 enum hm_err hm_import_ply(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
 enum hm_err hm_import_vtk(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
+enum hm_err hm_import_geojson(struct hm_input *in, struct hm_inputs *o, struct hm_diag *d);
+enum hm_err hm_import_wkt(struct hm_input *in, struct hm_inputs *o, struct hm_diag *d);
+enum hm_err hm_import_triangle(struct hm_input *in, struct hm_inputs *o, struct hm_diag *d);
 
 /* Does a file begin with this text? */
 bool hm_import_begins(const char *s, const char *end, const char *text);
@@ -57,5 +64,28 @@ enum hm_err hm_import_string(struct hm_mesh *m, const char *name, const int64_t 
 
 /* The title of a file as the name of the mesh, if it is one word. */
 enum hm_err hm_import_name(struct hm_mesh *m, const char *s, const char *end, struct hm_diag *d);
+
+/* The features of a GIS: places with properties beside them. Points become the points of `o`, their
+ * numbers fields; lines and the rings of polygons its lines, properties their attributes. */
+struct hm_features {
+    struct hm_input *in;
+    struct hm_inputs *o;
+    struct hm_diag *d;
+    char *attrs; /* of the feature being read */
+    double *xyz; /* the vertices read of its line, or its points */
+    size_t n, cap;
+};
+enum hm_shape { HM_SHAPE_POINTS, HM_SHAPE_LINE, HM_SHAPE_RING, HM_SHAPE_HOLE };
+
+/* Another feature begins: it has no properties, */
+enum hm_err hm_features_begin(struct hm_features *f);
+/* but for these. */
+enum hm_err hm_features_property(struct hm_features *f, const char *key, const char *value);
+/* A vertex, and what those since the last call here are. */
+enum hm_err hm_features_vertex(struct hm_features *f, const double xyz[3]);
+enum hm_err hm_features_end(struct hm_features *f, enum hm_shape shape);
+/* Behind the last: the crs (NULL: none is said). HM_EFORMAT when nothing came. */
+enum hm_err hm_features_finish(struct hm_features *f, const char *crs);
+void hm_features_free(struct hm_features *f);
 
 #endif

@@ -15,6 +15,12 @@ struct hm_inputs {
     struct hm_mesh *mesh;
     size_t npoints, ngrids, nlines, nmeshes;
 };
+/* One more, cleared, behind those of its kind; NULL when memory is short. Those from before move.
+ */
+struct hm_points *hm_inputs_add_points(struct hm_inputs *in);
+struct hm_grid *hm_inputs_add_grid(struct hm_inputs *in);
+struct hm_lines *hm_inputs_add_lines(struct hm_inputs *in);
+struct hm_mesh *hm_inputs_add_mesh(struct hm_inputs *in);
 void hm_inputs_free(struct hm_inputs *in);
 
 #endif

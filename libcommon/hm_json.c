@@ -12,21 +12,23 @@ static void put(struct hm_json *j, const char *bytes, size_t n)
         j->err = hm_writer_bytes(j->w, bytes, n, &j->d);
 }
 
+size_t hm_json_escape(char out[HM_JSON_ESCAPE], char c)
+{
+    size_t n = 0;
+    if ((unsigned char)c < 0x20)
+        return (size_t)snprintf(out, HM_JSON_ESCAPE, "\\u%04x", (unsigned)c);
+    if (c == '"' || c == '\\')
+        out[n++] = '\\';
+    out[n++] = c;
+    return n;
+}
+
 static void put_string(struct hm_json *j, const char *text)
 {
     put(j, "\"", 1);
     for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        char escape[8];
-        if (c == '"' || c == '\\') {
-            escape[0] = '\\';
-            escape[1] = (char)c;
-            put(j, escape, 2);
-        } else if (c < 0x20) {
-            put(j, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", (unsigned)c));
-        } else {
-            put(j, text, 1);
-        }
+        char escape[HM_JSON_ESCAPE];
+        put(j, escape, hm_json_escape(escape, *text));
     }
     put(j, "\"", 1);
 }

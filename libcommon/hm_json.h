@@ -29,4 +29,8 @@ void hm_json_integer(struct hm_json *j, const char *name, int64_t v);
 void hm_json_bool(struct hm_json *j, const char *name, bool v);
 void hm_json_text(struct hm_json *j, const char *name, const char *text); /* NULL: null */
 
+/* What stands for a character in a string, quotes not included; how many bytes. */
+enum { HM_JSON_ESCAPE = 8 };
+size_t hm_json_escape(char out[HM_JSON_ESCAPE], char c);
+
 #endif

@@ -49,6 +49,7 @@ void hm_reader_close(struct hm_reader *r)
     if (!r)
         return;
     forget_object(r);
+    hm_inputs_free(&r->whole);
     hm_input_close(&r->in);
     free(r->attrs);
     free(r->xyz);
@@ -163,6 +164,10 @@ static const struct hm_foreign *find_foreign(const struct hm_reader *r, const ch
 static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
 {
     enum { AHEAD = 1 << 16 };
+    if (hm_reader_has_whole(r)) {
+        r->form = &hm_reader_whole;
+        return HM_OK;
+    }
     enum hm_err err = hm_input_fill(&r->in, AHEAD, d);
     if (err)
         return err;
@@ -176,7 +181,7 @@ static enum hm_err recognise(struct hm_reader *r, struct hm_diag *d)
     }
     r->found = find_foreign(r, s, end);
     if (r->found) {
-        r->form = &hm_reader_foreign_mesh;
+        r->form = &hm_reader_whole;
         return HM_OK;
     }
     if (begins(s, end, "LASF") && hm_input_tell(&r->in) == 0) {
@@ -248,7 +253,7 @@ enum hm_err hm_reader_next(struct hm_reader *r, struct hm_header *h, struct hm_d
             return err;
         forget_object(r);
     }
-    enum hm_err err = skip_blank_lines(r, d);
+    enum hm_err err = hm_reader_has_whole(r) ? HM_OK : skip_blank_lines(r, d);
     if (err == HM_END && !r->any)
         return hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "empty: nothing to read");
     return err ? err : begin(r, h, d);

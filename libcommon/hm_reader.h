@@ -36,14 +36,18 @@ void hm_reader_close(struct hm_reader *r);
 /* A count in a header that disagrees with the data becomes an error (it is ignored otherwise). */
 void hm_reader_strict(struct hm_reader *r, bool strict);
 
-/* A format of other programs, read whole as a mesh, for those who ask for it (hm_import). */
+/* A format of other programs, read whole, for those who ask for it (hm_import). */
 struct hm_input;
+struct hm_inputs;
 struct hm_foreign {
     const char *name;
     /* Do these first bytes of a file, up to 64 KB, look like it? */
     bool (*is)(const char *s, const char *end);
-    /* All of it, into a mesh that is empty but for an initialised header. */
-    enum hm_err (*read)(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
+    /* All of it, by one of two: into a mesh that is empty but for an initialised header, or into
+     * objects, of which there must be one at least: points, lines and meshes are then given in this
+     * order. */
+    enum hm_err (*mesh)(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
+    enum hm_err (*objects)(struct hm_input *in, struct hm_inputs *objects, struct hm_diag *d);
 };
 
 /* Recognise these as well, before all others but the project's own; the list ends with a NULL

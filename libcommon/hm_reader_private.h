@@ -9,6 +9,7 @@
 
 #include "hm_headio.h"
 #include "hm_input.h"
+#include "hm_inputs.h"
 #include "hm_line.h"
 #include "hm_mesh.h"
 #include "hm_reader.h"
@@ -35,6 +36,8 @@ struct hm_reader {
     bool any;                         /* an object was found */
     const struct hm_foreign *foreign; /* formats known besides, or NULL */
     const struct hm_foreign *found;   /* that of this object */
+    struct hm_inputs whole;           /* what a foreign file held, */
+    size_t whole_given;               /* and how many of its objects were given */
 
     /* the object being read */
     const struct hm_reader_form *form; /* NULL between objects */
@@ -63,7 +66,10 @@ extern const struct hm_reader_form hm_reader_gmt;   /* GMT multisegment lines */
 extern const struct hm_reader_form hm_reader_las;
 extern const struct hm_reader_form hm_reader_ascii_grid;
 extern const struct hm_reader_form hm_reader_2dm;
-extern const struct hm_reader_form hm_reader_foreign_mesh; /* r->found */
+extern const struct hm_reader_form hm_reader_whole; /* r->found, and r->whole */
+
+/* Are there objects of a foreign file that have not been given? */
+bool hm_reader_has_whole(const struct hm_reader *r);
 
 /* Does the input begin with a key of an ESRI ASCII grid? */
 bool hm_reader_is_ascii_grid(const char *s, const char *end);

@@ -180,8 +180,8 @@ static enum hm_err find_data(struct hm_reader *r, struct table *t, struct hm_hea
         }
         err = i > 0 ? HM_EFORMAT : read_names(names, s, end, d);
         if (err == HM_EFORMAT)
-            hm_input_fail(&r->in, err, d, "neither numbers nor a format that is known: \"%s\"",
-                          hm_row_word(word, s, end));
+            hm_input_fail(&r->in, err, d, "neither numbers nor a format that is known: \"%s\"%s",
+                          hm_row_word(word, s, end), r->foreign ? "" : "; hmconv reads more");
         if (err)
             return err;
     }

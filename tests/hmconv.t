@@ -61,6 +61,11 @@ ok "nothing was written then" sh -c '[ ! -s tap.out ]'
 must_fail "a truncated mesh" 2 "end" sh -c "sed '\$d' mesh.hm | hmconv -t 2dm"
 ok "nothing was written then" sh -c '[ ! -s tap.out ]'
 must_fail "fewer digits would move nodes" 2 "precision" hmconv -p 2 -t 2dm mesh.hm
+must_fail "nor in a stream, whatever stands before it" 2 "precision would move the nodes of a mesh" \
+    sh -c 'printf "1 2 3\n" | cat - mesh.hm | hmconv -p 2'
+ok "nothing was written then" sh -c '[ ! -s tap.out ]'
+printf '1.234 2 3\n#hm 1 lines text\n#data\n>\n1.26 2 3\n4 5 6\n#end\n' | hmconv -p 1 >got
+ok "without a mesh all is rounded" sh -c 'grep -qx "1.2 2 3" got && grep -qx "1.3 2 3" got && grep -c "^#end" got | grep -qx 2'
 must_fail "a string of a node that is not there" 2 "string inflow" \
     sh -c "sed 's/inflow 0 3/inflow 0 5/' mesh.hm | hmconv -t 2dm"
 

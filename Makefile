@@ -95,12 +95,22 @@ $(B)/obj/hm_geod.o: libcommon/hm_geod.cpp
 $(B)/bin/hmdraw: EXTRA_CFLAGS = $(CAIRO_CFLAGS)
 $(B)/bin/hmdraw: EXTRA_LIBS = $(CAIRO_LIBS)
 $(B)/bin/hmconv: EXTRA_LIBS = $(JSON_LIBS)
+$(B)/bin/hmdraw: $(B)/gen/view3d.c
 $(B)/bin/georef: $(B)/obj/hm_geod.o
 $(B)/bin/georef: EXTRA_LIBS = $(B)/obj/hm_geod.o $(GEOD_LIBS) -lstdc++
 $(B)/bin/%: tools/%.c $$(wildcard tools/$$*/*.[ch]) $(LIB)
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "  LD      $@")
 	$(Q)$(CC) $(HM_CFLAGS) $(EXTRA_CFLAGS) -o $@ $(filter %.c,$^) $(LIB) $(HM_LDFLAGS) $(EXTRA_LIBS) -lm
+
+# The page of hmdraw -3: page.html with the files that it refers to in their places, as a C array.
+VIEW3D := tools/hmdraw/view3d
+$(B)/gen/view3d.html: tools/hmdraw/inline.awk $(wildcard $(VIEW3D)/*)
+	@mkdir -p $(@D)
+	$(Q)awk -v dir=$(VIEW3D) -f $< $(VIEW3D)/page.html >$@
+$(B)/gen/view3d.c: $(B)/gen/view3d.html
+	$(Q){ echo 'extern const char view3d_page[];'; echo 'const char view3d_page[] = {'; \
+	    od -An -v -tx1 $< | sed "s/ *\([0-9a-f][0-9a-f]\)/'\\\\x\1',/g"; echo '0};'; } >$@
 
 define test_program
 $(B)/test/%: $(1)/%.c $$$$(wildcard $(1)/$$$$*/*.[ch]) $(LIB)

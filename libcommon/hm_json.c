@@ -15,7 +15,7 @@ static void put(struct hm_json *j, const char *bytes, size_t n)
 size_t hm_json_escape(char out[HM_JSON_ESCAPE], char c)
 {
     size_t n = 0;
-    if ((unsigned char)c < 0x20)
+    if ((unsigned char)c < 0x20 || c == '<')
         return (size_t)snprintf(out, HM_JSON_ESCAPE, "\\u%04x", (unsigned)c);
     if (c == '"' || c == '\\')
         out[n++] = '\\';

@@ -1,5 +1,6 @@
 /* hm_json: JSON, as it is written. Layer 6. Commas, indentation and quotes are done
- * here; names are given in objects and NULL in arrays.
+ * here; names are given in objects and NULL in arrays. Texts hold no '<', so that it may stand in a
+ * page of HTML.
  *
  *     struct hm_json j = {.w = writer};
  *     hm_json_open(&j, NULL, '{');

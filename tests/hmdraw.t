@@ -124,10 +124,10 @@ same "standard input" stdin.png operand.png
 for file in dem.asc points.xyz residuals.hm lines.txt mesh.hm; do
     ok "alone: $file" hmdraw -s 400 -o one.png $file
 done
-for fill in region wire z quality; do
+for fill in material wire z quality; do
     ok "mesh filled by $fill" hmdraw -f $fill -o $fill.png mesh.hm
 done
-! cmp -s region.png quality.png
+! cmp -s material.png quality.png
 report $? "fills differ"
 sed 's/^#fields.*/&\n#units m m m percent/' slope.hm >percent.hm
 hmdraw -B slope -o percent.png percent.hm
@@ -203,6 +203,13 @@ if python3 -c 'import zlib' 2>/dev/null; then
             "($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2 < 50 && $1 + $2 + $3 < 720"
         shift 6
     done
+
+    # triangles that close the gap between two meshes have nodes of both, and the material of one
+    sed 's/^t 0*1 4 2 0/t 1 4 2 1/' mesh.hm >gap.hm
+    hmdraw -P -s 100 -R 0/10/0/10 -o gap.png gap.hm
+    set -- $(pixel gap.png 30,60 65,70 85,40)
+    true_that "a gap's triangle is the river's colour" "$1 == $4 && $2 == $5 && $3 == $6 && $3 < 150"
+    true_that "and its neighbour the floodplain's" "$7 > 220 && $9 > 220"
 
     # 160,000 elements of half a pixel do not cover the colours under them
     awk 'BEGIN { n = 400; print "#hm 1 mesh text\n#data"

@@ -1,10 +1,14 @@
-/* hmdraw: any streams → a picture. One layer an object, from bottom to top in the order given. */
+/* hmdraw: any streams → a picture, one layer an object, from bottom to top in the order given; or
+ * meshes → a page with a 3D view. */
 #include "hmdraw/draw.h"
+#include "hmdraw/scene.h"
 
 #include "hm_cli.h"
 #include "hm_num.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -15,30 +19,34 @@ static struct {
     double size;        /* pixels */
     int type, fill;     /* enum format, enum mesh_fill */
     int levels;         /* of each colour channel */
-    bool has_type, plain;
+    bool has_type, has_fill, has_size, has_levels, plain, scene;
     const char *title, *band;
-} cmd = {.size = 1600, .levels = 256, .title = ""};
+} cmd = {.size = 1600, .levels = 256};
 
 static const struct hm_option options[] = {
+    {'3', "3d", NULL, HM_OPT_FLAG, &cmd.scene,
+     .help = "a page of HTML with a 3D view of the meshes, to turn and to click"},
     {'R', "region", "W/E/S/N", HM_OPT_TEXT, &cmd.region, .help = "window to draw (default: all)"},
     {'s', "size", "PIXELS", HM_OPT_POSITIVE, &cmd.size,
-     .help = "longer side of the picture (default 1600)"},
+     .help = "longer side of the picture (default 1600)", .given = &cmd.has_size},
     {'t', "type", NULL, HM_OPT_CHOICE, &cmd.type,
      .help = "format (default: by the suffix of -o, or png)", .choices = "png|svg|pdf",
      .given = &cmd.has_type},
     {'f', "fill", NULL, HM_OPT_CHOICE, &cmd.fill,
-     .help = "what colours the elements (default region)", .choices = "region|wire|z|quality"},
+     .help = "what colours the elements (default material)", .choices = "material|wire|z|quality",
+     .given = &cmd.has_fill},
     {'B', "band", "NAME", HM_OPT_TEXT, &cmd.band,
      .help = "draw this band of grids (default z, shaded)"},
     {'T', "title", "TEXT", HM_OPT_TEXT, &cmd.title, .help = "title above the map"},
     {'l', "levels", "N", HM_OPT_NATURAL, &cmd.levels,
-     .help = "PNG: steps of each colour, 2 to 256; 16 for small files (default 256)"},
+     .help = "PNG: steps of each colour, 2 to 256; 16 for small files (default 256)",
+     .given = &cmd.has_levels},
     {'P', "plain", NULL, HM_OPT_FLAG, &cmd.plain, .help = "the map alone: no frame, no legend"},
     {0}};
 
 static const struct hm_program program = {
     .name = "hmdraw",
-    .purpose = "points, grids, lines and meshes → a map",
+    .purpose = "points, grids, lines and meshes → a map, meshes → a 3D view",
     .operands = "[file ...]",
     .options = options,
     .needs = HM_ANY,
@@ -298,25 +306,33 @@ static cairo_status_t sink_write(void *closure, const unsigned char *data, unsig
                                                                  : CAIRO_STATUS_SUCCESS;
 }
 
+/* The suffix of a file name, from its point on; NULL for a name without one, and for "-". */
+static const char *suffix_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return strcmp(path, "-") ? dot : NULL;
+}
+
 /* The format that the suffix of -o says, in any case; PNG without a suffix. */
 static int format_of_suffix(struct hm_cli *cli, const char *path)
 {
     static const char *const suffix[] = {
         [FORMAT_PNG] = ".png", [FORMAT_SVG] = ".svg", [FORMAT_PDF] = ".pdf"};
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    if (!dot || !strcmp(path, "-"))
+    const char *dot = suffix_of(path);
+    if (!dot)
         return FORMAT_PNG;
     for (int k = FORMAT_PNG; k <= FORMAT_PDF; k++)
         if (!strcasecmp(dot, suffix[k]))
             return k;
-    hm_cli_die(cli, "%s: no picture format; -t says png, svg or pdf", path);
+    hm_cli_die(cli, "%s: no picture format; -t says png, svg or pdf, -3 makes a page of HTML",
+               path);
 }
 
 static enum format choose_format(struct hm_cli *cli)
 {
     const char *path = hm_cli_output(cli);
-    int type = cmd.has_type ? cmd.type : format_of_suffix(cli, path);
-    if (type != FORMAT_SVG && !strcmp(path, "-") && isatty(STDOUT_FILENO))
+    int type = cmd.has_type ? cmd.type : cmd.scene ? FORMAT_PNG : format_of_suffix(cli, path);
+    if ((cmd.scene || type != FORMAT_SVG) && !strcmp(path, "-") && isatty(STDOUT_FILENO))
         hm_cli_die(cli, "a picture does not go to a terminal; use -o or a pipe");
     return (enum format)type;
 }
@@ -333,25 +349,123 @@ static void check_numbers(struct hm_cli *cli, enum format format)
         hm_cli_die(cli, "--levels: must be within 2 and 256");
 }
 
+/* --- the 3D view --- */
+
+static void check_scene_options(struct hm_cli *cli)
+{
+    const struct {
+        bool given;
+        const char *name;
+    } option[] = {{cmd.has_type, "type"},
+                  {cmd.has_size, "size"},
+                  {cmd.band, "band"},
+                  {cmd.has_levels, "levels"},
+                  {cmd.plain, "plain"}};
+    for (size_t k = 0; k < sizeof option / sizeof *option; k++)
+        if (option[k].given)
+            hm_cli_die(cli, "--%s is for maps, not for the page of --3d", option[k].name);
+    if (cmd.fill == FILL_WIRE)
+        hm_cli_die(cli, "--fill: the page of --3d has wires; material, z or quality");
+    const char *dot = suffix_of(hm_cli_output(cli));
+    if (dot && strcasecmp(dot, ".html") && strcasecmp(dot, ".htm"))
+        hm_cli_die(cli, "%s: -3 makes a page of HTML", hm_cli_output(cli));
+}
+
+static bool has_residuals(const struct layer *layer)
+{
+    return layer->kind == HM_POINTS && hm_header_field(&layer->of.points.header, "residual") >= 0;
+}
+
+/* Lines and residuals on the meshes; one line about what the view does not show. */
+static void furnish_scene(struct hm_cli *cli, struct scene *scene, const struct drawing *drawing)
+{
+    struct hm_diag d = {0};
+    int64_t left_out = 0;
+    hm_cli_check(cli, scene_add_borders(scene, &d), &d);
+    for (size_t k = 0; k < drawing->n; k++) {
+        const struct layer *layer = &drawing->layer[k];
+        if (layer->kind == HM_LINES)
+            scene_add_breaklines(scene, &layer->of.lines);
+        else if (has_residuals(layer))
+            hm_cli_check(cli, scene_add_residuals(scene, &layer->of.points, &d), &d);
+        else
+            left_out += layer->kind != HM_MESH;
+    }
+    hm_cli_check(cli, scene_add_colourings(scene, &d), &d);
+    if (left_out)
+        hm_cli_say(cli, "the 3D view shows meshes, breaklines and residuals; %s not",
+                   hm_cli_counted(left_out, "grid or set of points").text);
+}
+
+/* The colouring to begin with: as asked, else the last of those that tell elements apart. */
+static int first_colouring(const struct scene *scene)
+{
+    if (cmd.has_fill)
+        return cmd.fill == FILL_Z ? -1 : cmd.fill == FILL_QUALITY ? SCENE_QUALITY : SCENE_MATERIAL;
+    if (scene->residual)
+        return SCENE_RESIDUAL;
+    return scene->colouring[SCENE_MATERIAL].classes.n > 1 ? SCENE_MATERIAL : -1;
+}
+
+static void write_scene(struct hm_cli *cli, const struct drawing *drawing, struct hm_writer *w)
+{
+    struct scene scene = {0};
+    struct hm_diag d = {0};
+    const char *role = NULL;
+    char title[64];
+    for (size_t k = 0; k < drawing->n; k++)
+        if (drawing->layer[k].kind == HM_MESH) {
+            const struct hm_mesh *m = &drawing->layer[k].of.mesh;
+            hm_cli_check(cli, hm_header_need_metres(&m->header, &d), &d);
+            hm_cli_check(cli, scene_add_mesh(&scene, &drawing->view, m, &d), &d);
+            role = hm_header_get(&m->header, "role");
+        }
+    if (!scene.mesh.nelems)
+        hm_cli_die(cli, "--3d: no mesh to show");
+    hm_cli_check(cli, scene_place(&scene, &d), &d);
+    furnish_scene(cli, &scene, drawing);
+    snprintf(title, sizeof title, "%.48s mesh", role && scene.nparts == 1 ? role : "the");
+    title[0] = (char)toupper((unsigned char)title[0]);
+    hm_cli_check(cli,
+                 scene_write(&scene, &drawing->heights, cmd.title ? cmd.title : title,
+                             first_colouring(&scene), w, &d),
+                 &d);
+    scene_free(&scene);
+}
+
+/* --- the map --- */
+
+static void write_map(struct hm_cli *cli, const struct drawing *drawing, enum format format,
+                      struct hm_writer *w)
+{
+    struct page page = {.plain = cmd.plain, .levels = cmd.levels, .format = format};
+    struct sink sink = {.writer = w};
+    page.view = drawing->view;
+    hm_header_unit(header_of(&drawing->layer[0]), 0, page.unit, sizeof page.unit);
+    hm_cli_check(cli, page_open(&page, cmd.size, cmd.title, sink_write, &sink, &sink.d), &sink.d);
+    draw_layers(cli, &page, drawing);
+    page_furnish(&page, cmd.title);
+    hm_cli_check(cli, page_close(&page, sink_write, &sink, &sink.d), &sink.d);
+}
+
 int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct drawing drawing = {0};
-    struct page page = {.plain = cmd.plain, .levels = cmd.levels, .format = choose_format(cli)};
-    check_numbers(cli, page.format);
+    if (cmd.scene)
+        check_scene_options(cli);
+    const enum format format = choose_format(cli);
+    check_numbers(cli, format);
     if (cmd.region)
         parse_window(cli, cmd.region, &drawing.view);
-    struct sink sink = {.writer = hm_cli_writer(cli)}; /* before the work: it may not be writable */
+    struct hm_writer *w = hm_cli_writer(cli); /* before the work: it may not be writable */
     read_layers(cli, &drawing);
     choose_window(cli, &drawing);
     find_heights(cli, &drawing);
-
-    page.view = drawing.view;
-    hm_header_unit(header_of(&drawing.layer[0]), 0, page.unit, sizeof page.unit);
-    hm_cli_check(cli, page_open(&page, cmd.size, cmd.title, sink_write, &sink, &sink.d), &sink.d);
-    draw_layers(cli, &page, &drawing);
-    page_furnish(&page, cmd.title);
-    hm_cli_check(cli, page_close(&page, sink_write, &sink, &sink.d), &sink.d);
+    if (cmd.scene)
+        write_scene(cli, &drawing, w);
+    else
+        write_map(cli, &drawing, format, w);
     free_layers(&drawing);
     return hm_cli_finish(cli);
 }

@@ -8,7 +8,8 @@
 const struct rgb INK = {0.13, 0.13, 0.15}, PAPER = {1, 1, 1}, GREY = {0.62, 0.62, 0.62};
 const struct rgb BREAKLINE = {0.80, 0.06, 0.10}, ROUGH = {0.05, 0.10, 0.45};
 const struct rgb STRING = {0.00, 0.45, 0.35};
-const struct rgb GOOD = {0.00, 0.62, 0.45}, FAIR = {0.94, 0.84, 0.20}, POOR = {0.84, 0.25, 0.00};
+const struct rgb GOOD = {0.00, 0.62, 0.45}, FAIR = {0.94, 0.84, 0.20},
+                 DOUBTFUL = {0.90, 0.55, 0.10}, POOR = {0.84, 0.25, 0.00};
 
 enum { STOPS = 7 };
 
@@ -52,13 +53,14 @@ struct rgb ramp_colour(enum ramp ramp, double t)
     return (struct rgb){a.r + u * (b.r - a.r), a.g + u * (b.g - a.g), a.b + u * (b.b - a.b)};
 }
 
-struct rgb owner_colour(int32_t owner)
+struct rgb material_colour(int32_t material)
 {
+    static const struct rgb none = {0.95, 0.95, 0.93};
     static const struct rgb palette[] = {{1.00, 0.78, 0.40}, {0.91, 0.66, 0.84}, {0.53, 0.83, 0.70},
                                          {0.62, 0.80, 0.95}, {0.96, 0.92, 0.50}, {0.55, 0.62, 0.90},
                                          {0.95, 0.62, 0.50}};
     enum { COLOURS = sizeof palette / sizeof *palette };
-    return palette[(owner - 1) % COLOURS];
+    return material > 0 ? palette[(material - 1) % COLOURS] : none;
 }
 
 void set_colour(struct page *page, struct rgb colour, double alpha)

@@ -7,6 +7,7 @@
 #define DRAW_H
 
 #include "hm_data.h"
+#include "hm_residual.h"
 
 #include <cairo.h>
 
@@ -31,13 +32,13 @@ struct scale {
 enum ramp { RAMP_HEIGHT, RAMP_VALUE };
 
 struct rgb ramp_colour(enum ramp ramp, double t); /* t 0 .. 1, clamped */
-struct rgb owner_colour(int32_t owner);           /* owner or region 1, 2, … */
+struct rgb material_colour(int32_t material);     /* 0: a light grey; 1, 2, …: a palette */
 double range_part(struct range range, double v);  /* 0 at lo, 1 at hi */
 
 struct page;
 void set_colour(struct page *page, struct rgb colour, double alpha);
 
-extern const struct rgb INK, PAPER, GREY, BREAKLINE, ROUGH, STRING, GOOD, FAIR, POOR;
+extern const struct rgb INK, PAPER, GREY, BREAKLINE, ROUGH, STRING, GOOD, FAIR, DOUBTFUL, POOR;
 
 /* The colour that one of that opacity takes over another. */
 struct rgb blend(struct rgb over, double alpha, struct rgb under);
@@ -165,9 +166,34 @@ struct ticks ticks_within(struct range range, double step);
 double tick_print(const struct ticks *ticks, int k, char text[32]);
 void draw_text(struct page *page, double x, double y, double size, const char *text);
 
-/* --- the layers --- */
+/* --- classes.c --- */
 
-enum mesh_fill { FILL_REGION, FILL_WIRE, FILL_Z, FILL_QUALITY };
+enum mesh_fill { FILL_MATERIAL, FILL_WIRE, FILL_Z, FILL_QUALITY };
+
+struct class
+{
+    char text[LEGEND_TEXT]; /* "": one of many shades */
+    struct rgb colour;
+    bool backdrop; /* what lies around all that matters: it may be faint */
+};
+struct classes {
+    int32_t *of; /* the class of each element, -1 for none */
+    struct class *list;
+    size_t n;
+};
+/* Materials ascending, shades from low to high, angles from good to poor; emptied by
+ * classes_free. */
+enum hm_err classify(struct classes *c, const struct hm_mesh *m, enum mesh_fill fill,
+                     const struct scale *heights, struct hm_diag *d);
+void classes_free(struct classes *c);
+
+/* Of residuals, by hm_residual_classify with these limits (metres): text and colour. */
+enum { RESIDUAL_CLASSES = 4 };
+extern const double residual_limits[2];
+extern const enum hm_residual_class residual_order[RESIDUAL_CLASSES]; /* as legends name them */
+struct class residual_class(enum hm_residual_class class);
+
+/* --- the layers --- */
 
 /* The band drawn by height is shaded; others get colour alone. */
 enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, bool relief,

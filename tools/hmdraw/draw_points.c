@@ -4,33 +4,13 @@
 
 #include <math.h>
 
-/* Residual classes, metres (Table 1). */
-static const double acceptable = 0.10, tolerable = 0.30;
-
-enum { RESIDUAL_CLASSES = 4 };
-
-static int residual_class(double residual)
-{
-    double r = fabs(residual);
-    return isnan(r) ? 3 : r <= acceptable ? 0 : r <= tolerable ? 1 : 2;
-}
-
-static struct rgb residual_colour(int class)
-{
-    const struct rgb colour[RESIDUAL_CLASSES] = {GOOD, FAIR, POOR, GREY};
-    return colour[class];
-}
-
 static void enter_residuals(struct page *page, const int64_t count[RESIDUAL_CLASSES])
 {
-    if (count[0])
-        legend_add(page, MARK_DOT, GOOD, count[0], "up to %.2f m off", acceptable);
-    if (count[1])
-        legend_add(page, MARK_DOT, FAIR, count[1], "up to %.2f m off", tolerable);
-    if (count[2])
-        legend_add(page, MARK_DOT, POOR, count[2], "over %.2f m off", tolerable);
-    if (count[3])
-        legend_add(page, MARK_DOT, GREY, count[3], "without residual");
+    for (int k = 0; k < RESIDUAL_CLASSES; k++) {
+        const struct class class = residual_class(residual_order[k]);
+        if (count[residual_order[k]])
+            legend_add(page, MARK_DOT, class.colour, count[residual_order[k]], "%s", class.text);
+    }
 }
 
 /* A disc of radius r around a place in pixels, soft at its rim; under a pixel it is one pixel. */
@@ -79,9 +59,9 @@ enum hm_err draw_points(struct page *page, const struct hm_points *p, const stru
             continue;
         struct rgb c = GREY;
         if (residual >= 0) {
-            int class = residual_class(row[residual]);
+            enum hm_residual_class class = hm_residual_classify(row[residual], residual_limits);
             count[class]++;
-            c = residual_colour(class);
+            c = residual_class(class).colour;
         } else if (!isnan(row[2])) {
             c = ramp_colour(RAMP_HEIGHT, range_part(heights->range, row[2]));
         }

@@ -1,24 +1,15 @@
 /* hm_even: see hm_even.h. */
 #include "hm_even.h"
-#include "hm_pred.h"
+#include "hm_star.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-    MOST_AROUND = 24, /* triangles around a node that is moved */
     ROUNDS = 12,
     ONLY_MOVES = 3 /* rounds before nodes come and go */
 };
-
-/* What makes a pair bad enough to be worked at, as part of the ratio: what is moved later may take
- * a little of it again. */
-#define AIM 0.97
-
-/* What the square of the cosine of an angle beyond the minimum counts, beside squares of logarithms
- * of ratios. */
-#define SHARP 10
 
 /* The square of a cosine that any angle may have for a while. */
 #define ANY_ANGLE 0.99
@@ -28,117 +19,16 @@ struct pair {
     int32_t a, b;
 };
 
-/* An edge of a regular mesh, by its vertices, and the area of the element beyond. */
-struct side {
-    int32_t a, b;
-    double area;
-};
-
 struct even {
     struct hm_domain *dom;
     struct hm_tri *t;
     const struct hm_even_options *o;
+    struct hm_star_rules rules;
     struct hm_diag *d;
-    double cos2;       /* of the minimum angle */
-    int32_t first;     /* vertices from here on are new */
-    struct side *side; /* sorted */
-    size_t n_sides;
+    int32_t first; /* vertices from here on are new */
     struct pair *pair;
     size_t n_pairs, cap_pairs;
 };
-
-/* The triangles around a vertex, seen from it: triangle k has corners k and k + 1. */
-struct star {
-    int n;
-    const double *corner[MOST_AROUND + 1];
-    double beyond[MOST_AROUND]; /* area of the element beyond its far edge; 0: none */
-    double most[MOST_AROUND];   /* largest area that it may have */
-    double largest;             /* area of these triangles */
-    double longest;             /* square of the longest edge that it may have */
-    double worst;               /* square of the cosine of the smallest angle that it may have */
-    double shortest;            /* edge from the vertex */
-};
-
-static double length2(const double *a, const double *b)
-{
-    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
-}
-
-/* --- areas --- */
-
-static int by_ends(const void *pa, const void *pb)
-{
-    const struct side *a = pa, *b = pb;
-    if (a->a != b->a)
-        return a->a < b->a ? -1 : 1;
-    return (a->b > b->b) - (a->b < b->b);
-}
-
-static enum hm_err list_sides(struct even *w)
-{
-    const struct hm_domain *dom = w->dom;
-    w->side = hm_alloc(dom->nedges, sizeof *w->side);
-    if (!w->side)
-        return hm_fail_memory(w->d);
-    for (size_t k = 0; k < dom->nedges; k++) {
-        const struct hm_domain_edge *edge = &dom->edge[k];
-        int32_t a = dom->vertex_of[edge->a], b = dom->vertex_of[edge->b];
-        if (edge->beside > 0)
-            w->side[w->n_sides++] = (struct side){a < b ? a : b, a < b ? b : a, edge->beside};
-    }
-    qsort(w->side, w->n_sides, sizeof *w->side, by_ends);
-    return HM_OK;
-}
-
-/* The area of the element left of an edge; 0 when nobody meshes there. */
-static double area_left(const struct even *w, int32_t e)
-{
-    if (hm_domain_is_inside(w->dom, e / 3))
-        return hm_domain_area(w->dom, e / 3);
-    int32_t a = hm_tri_org(w->t, e), b = hm_tri_dest(w->t, e);
-    const struct side key = {a < b ? a : b, a < b ? b : a, 0};
-    const struct side *side = bsearch(&key, w->side, w->n_sides, sizeof key, by_ends);
-    return side ? side->area : 0;
-}
-
-/* How much worse than wanted a pair of elements is; one alone never. */
-static double excess(const struct even *w, double one, double other)
-{
-    double ratio = fmax(one, other) / (fmin(one, other) * AIM * w->o->ratio);
-    return fmin(one, other) > 0 && ratio > 1 ? log(ratio) * log(ratio) : 0;
-}
-
-/* The square of the cosine of the smallest angle. */
-static double sharpest(const double *a, const double *b, const double *c)
-{
-    double l[3] = {length2(a, b), length2(b, c), length2(c, a)};
-    double least = fmin(l[0], fmin(l[1], l[2])), dot = (l[0] + l[1] + l[2]) / 2 - least;
-    return dot * dot * least / (l[0] * l[1] * l[2]);
-}
-
-/* How much sharper than wanted a triangle is, on the scale of excess(). */
-static double sharpness(const struct even *w, const double *a, const double *b, const double *c)
-{
-    double beyond = SHARP * fmax(sharpest(a, b, c) - w->cos2, 0);
-    return beyond * beyond;
-}
-
-static double sharpness_left(const struct even *w, int32_t e)
-{
-    const struct hm_tri *t = w->t;
-    return !hm_domain_is_inside(w->dom, e / 3)
-               ? 0
-               : sharpness(w, hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e)),
-                           hm_tri_xy(t, hm_tri_apex(t, e)));
-}
-
-/* How bad the pair of elements at an edge is. */
-static double excess_at(const struct even *w, int32_t e)
-{
-    int32_t twin = hm_tri_twin(w->t, e);
-    return excess(w, area_left(w, e), area_left(w, twin)) + sharpness_left(w, e) +
-           sharpness_left(w, twin);
-}
 
 static bool is_free(const struct even *w, int32_t v)
 {
@@ -148,74 +38,12 @@ static bool is_free(const struct even *w, int32_t v)
 
 /* --- one vertex and what is around --- */
 
-/* The edge from v to its lowest neighbour: where to begin, whatever the triangles' numbers. */
-static int32_t first_edge(const struct hm_tri *t, int32_t v)
-{
-    int32_t first = hm_tri_edge_from(t, v), e = first, best = first;
-    do {
-        if (hm_tri_dest(t, e) < hm_tri_dest(t, best))
-            best = e;
-        e = hm_tri_twin(t, hm_tri_prev(e));
-    } while (e != first);
-    return best;
-}
-
-/* False when there are too many triangles. */
-static bool look_around(const struct even *w, int32_t v, struct star *s)
-{
-    const struct hm_tri *t = w->t;
-    const struct hm_sizes *sizes = w->o->sizes;
-    int32_t first = first_edge(t, v), e = first;
-    const double *at = hm_tri_xy(t, v);
-    *s = (struct star){.worst = w->cos2, .shortest = INFINITY};
-    s->longest = sizes->max_edge > 0 ? sizes->max_edge * sizes->max_edge : INFINITY;
-    do {
-        if (s->n == MOST_AROUND)
-            return false;
-        const double *a = hm_tri_xy(t, hm_tri_dest(t, e)), *b = hm_tri_xy(t, hm_tri_apex(t, e));
-        double area = hm_domain_area(w->dom, e / 3), most;
-        most = hm_sizes_area((void *)sizes, (at[0] + a[0] + b[0]) / 3, (at[1] + a[1] + b[1]) / 3,
-                             hm_tri_region(t, e / 3));
-        s->corner[s->n] = a;
-        s->most[s->n] = most > 0 ? fmax(most, area) : INFINITY;
-        s->beyond[s->n++] = area_left(w, hm_tri_twin(t, hm_tri_next(e)));
-        s->largest = fmax(s->largest, area);
-        s->longest = fmax(s->longest, length2(at, a));
-        s->worst = fmax(s->worst, sharpest(at, a, b));
-        s->shortest = fmin(s->shortest, length2(at, a));
-        e = hm_tri_twin(t, hm_tri_prev(e));
-    } while (e != first);
-    s->corner[s->n] = s->corner[0];
-    s->shortest = sqrt(s->shortest);
-    return true;
-}
-
-/* How bad the pairs in a star are with the vertex at p; INFINITY when it may not be there. */
-static double rate(const struct even *w, const struct star *s, const double *p)
-{
-    double sum = 0, first = 0, last = 0;
-    for (int k = 0; k < s->n; k++) {
-        const double *a = s->corner[k], *b = s->corner[k + 1];
-        double area = hm_area2(a, b, p) / 2;
-        if (hm_pred_orient(a, b, p) <= 0 || area > s->most[k] || length2(a, p) > s->longest ||
-            sharpest(a, b, p) > s->worst)
-            return INFINITY;
-        sum += excess(w, area, s->beyond[k]) + sharpness(w, a, b, p);
-        if (k == 0)
-            first = area;
-        else
-            sum += excess(w, area, last);
-        last = area;
-    }
-    return sum + excess(w, first, last);
-}
-
 /* The best place in a star that a search by ever smaller steps from p finds; how bad it is. */
-static double search(const struct even *w, const struct star *s, double p[2])
+static double search(const struct even *w, const struct hm_star *s, double p[2])
 {
     const double step[8][2] = {{1, 0},  {0.7, 0.7},   {0, 1},  {-0.7, 0.7},
                                {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}};
-    double best = rate(w, s, p);
+    double best = hm_star_rate(&w->rules, s, p);
     for (double size = 0.3 * s->shortest; best > 0 && size > 0.01 * s->shortest; size /= 2) {
         bool better = true;
         for (int n = 0; better && best > 0 && n < 4; n++) {
@@ -223,7 +51,7 @@ static double search(const struct even *w, const struct star *s, double p[2])
             better = false;
             for (int k = 0; k < 8; k++) {
                 double q[2] = {from[0] + size * step[k][0], from[1] + size * step[k][1]};
-                double now = rate(w, s, q);
+                double now = hm_star_rate(&w->rules, s, q);
                 if (now < best) {
                     best = now;
                     memcpy(p, q, sizeof q);
@@ -237,12 +65,13 @@ static double search(const struct even *w, const struct star *s, double p[2])
 
 /* --- a vertex moves --- */
 
-static bool is_size_kept(const struct even *w, int32_t tri, const struct star *s)
+static bool is_size_kept(const struct even *w, int32_t tri, const struct hm_star *s)
 {
     const struct hm_tri *t = w->t;
     double p[2], most;
     for (int32_t e = 3 * tri; e < 3 * tri + 3; e++)
-        if (length2(hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e))) > s->longest)
+        if (hm_star_length2(hm_tri_xy(t, hm_tri_org(t, e)), hm_tri_xy(t, hm_tri_dest(t, e))) >
+            s->longest)
             return false;
     hm_tri_centre(t, tri, p);
     most = hm_sizes_area((void *)w->o->sizes, p[0], p[1], hm_tri_region(t, tri));
@@ -250,7 +79,7 @@ static bool is_size_kept(const struct even *w, int32_t tri, const struct star *s
 }
 
 /* Are all corners of a triangle on the rim of a star? */
-static bool is_between_corners(const struct hm_tri *t, int32_t tri, const struct star *s)
+static bool is_between_corners(const struct hm_tri *t, int32_t tri, const struct hm_star *s)
 {
     int found = 0;
     for (int32_t e = 3 * tri; e < 3 * tri + 3; e++)
@@ -261,7 +90,7 @@ static bool is_between_corners(const struct hm_tri *t, int32_t tri, const struct
 
 /* Edges may have flipped, so that triangles are others than those that were rated: those around v,
  * and what it left behind, beside them. */
-static bool are_sizes_kept(const struct even *w, int32_t v, const struct star *s)
+static bool are_sizes_kept(const struct even *w, int32_t v, const struct hm_star *s)
 {
     const struct hm_tri *t = w->t;
     int32_t first = hm_tri_edge_from(t, v), e = first;
@@ -277,7 +106,7 @@ static bool are_sizes_kept(const struct even *w, int32_t v, const struct star *s
 }
 
 /* Move a vertex; back when that makes elements too large. */
-static enum hm_err move(struct even *w, int32_t v, const double *p, const struct star *s,
+static enum hm_err move(struct even *w, int32_t v, const double *p, const struct hm_star *s,
                         bool *moved)
 {
     const double *at = hm_tri_xy(w->t, v), before[2] = {at[0], at[1]};
@@ -291,12 +120,12 @@ static enum hm_err move(struct even *w, int32_t v, const double *p, const struct
 
 static enum hm_err relax(struct even *w, int32_t v)
 {
-    struct star s;
+    struct hm_star s;
     bool moved;
-    if (!is_free(w, v) || !look_around(w, v, &s))
+    if (!is_free(w, v) || !hm_star_look(&w->rules, v, &s))
         return HM_OK;
     const double *at = hm_tri_xy(w->t, v);
-    double p[2] = {at[0], at[1]}, before = rate(w, &s, p);
+    double p[2] = {at[0], at[1]}, before = hm_star_rate(&w->rules, &s, p);
     return before > 0 && search(w, &s, p) < before ? move(w, v, p, &s, &moved) : HM_OK;
 }
 
@@ -307,9 +136,9 @@ static enum hm_err relax(struct even *w, int32_t v)
 static bool is_bad(const struct even *w, const struct pair *p, int32_t *e)
 {
     *e = hm_tri_edge_between(w->t, p->a, p->b);
-    if (*e == HM_TRI_NONE || excess_at(w, *e) == 0)
+    if (*e == HM_TRI_NONE || hm_star_excess(&w->rules, *e) == 0)
         return false;
-    if (area_left(w, *e) < area_left(w, hm_tri_twin(w->t, *e)))
+    if (hm_star_area(&w->rules, *e) < hm_star_area(&w->rules, hm_tri_twin(w->t, *e)))
         *e = hm_tri_twin(w->t, *e);
     return true;
 }
@@ -339,8 +168,8 @@ static void choose_place(const struct hm_tri *t, int32_t e, double p[2])
     for (int k = 0; k < 3; k++)
         corner[k] = hm_tri_xy(t, hm_tri_org(t, edge[k]));
     for (int k = 1; k < 3; k++)
-        if (length2(corner[k], corner[(k + 1) % 3]) >
-            length2(corner[longest], corner[(longest + 1) % 3]))
+        if (hm_star_length2(corner[k], corner[(k + 1) % 3]) >
+            hm_star_length2(corner[longest], corner[(longest + 1) % 3]))
             longest = k;
     const double *a = corner[longest], *b = corner[(longest + 1) % 3];
     for (int k = 0; k < 2; k++)
@@ -351,7 +180,7 @@ static void choose_place(const struct hm_tri *t, int32_t e, double p[2])
 /* A new node in the larger element, where that makes the pairs around better than this one is. */
 static enum hm_err add_node(struct even *w, int32_t e)
 {
-    double before = excess_at(w, e), p[2];
+    double before = hm_star_excess(&w->rules, e), p[2];
     int32_t v, vertices = hm_tri_vertices(w->t);
     if (!hm_domain_is_inside(w->dom, e / 3))
         return HM_OK;
@@ -359,12 +188,12 @@ static enum hm_err add_node(struct even *w, int32_t e)
     enum hm_err err = hm_tri_insert(w->t, p[0], p[1], e / 3, &v, w->d);
     if (err || v < vertices)
         return err;
-    struct star s;
-    bool good = look_around(w, v, &s);
+    struct hm_star s;
+    bool good = hm_star_look(&w->rules, v, &s);
     if (good) {
         s.worst = ANY_ANGLE;
         search(w, &s, p);
-        s.worst = w->cos2;
+        s.worst = w->rules.cos2;
         good = search(w, &s, p) < before;
     }
     if (good)
@@ -389,7 +218,8 @@ static enum hm_err find_pairs(struct even *w)
     for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
         int32_t twin = hm_tri_twin(t, e);
         if (!hm_domain_is_inside(w->dom, e / 3) ||
-            (hm_domain_is_inside(w->dom, twin / 3) && twin < e) || excess_at(w, e) == 0)
+            (hm_domain_is_inside(w->dom, twin / 3) && twin < e) ||
+            hm_star_excess(&w->rules, e) == 0)
             continue;
         if (!hm_grow(&w->pair, &w->cap_pairs, w->n_pairs + 1, sizeof *w->pair))
             return hm_fail_memory(w->d);
@@ -435,7 +265,7 @@ static void count_left(const struct even *w, struct hm_even_left *left)
     const struct hm_tri *t = w->t;
     for (size_t k = 0; k < w->n_pairs; k++) {
         int32_t e = hm_tri_edge_between(t, w->pair[k].a, w->pair[k].b);
-        double one = area_left(w, e), other = area_left(w, hm_tri_twin(t, e));
+        double one = hm_star_area(&w->rules, e), other = hm_star_area(&w->rules, hm_tri_twin(t, e));
         double ratio = fmin(one, other) > 0 ? fmax(one, other) / fmin(one, other) : 1;
         const double *a = hm_tri_xy(t, w->pair[k].a), *b = hm_tri_xy(t, w->pair[k].b);
         left->pairs += ratio > w->o->ratio;
@@ -455,21 +285,15 @@ enum hm_err hm_even_reach(struct hm_domain *dom, const struct hm_even_options *o
     enum hm_err err = hm_domain_triangulate(dom, o->threads, d);
     if (err)
         return err;
-    double cosine = cos(o->min_angle * acos(-1) / 180);
-    struct even w = {.dom = dom,
-                     .t = dom->tri,
-                     .o = o,
-                     .d = d,
-                     .cos2 = cosine * cosine,
-                     .first = hm_tri_vertices(dom->tri)};
-    err = list_sides(&w);
+    struct even w = {.dom = dom, .t = dom->tri, .o = o, .d = d, .first = hm_tri_vertices(dom->tri)};
+    err = hm_star_open(&w.rules, dom, o->ratio, o->min_angle, o->sizes, d);
     if (!err)
         err = go(&w);
     if (!err) {
         take_places(&w);
         count_left(&w, left);
     }
-    free(w.side);
+    hm_star_close(&w.rules);
     free(w.pair);
     return err ? err : hm_domain_adopt(dom, w.first, o->threads, d);
 }

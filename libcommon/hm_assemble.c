@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MANY = 65536 }; /* measurements held at once where only corners of their hull matter */
+
 static enum hm_err add_node(struct hm_build *b, const double *xyz, int32_t *number,
                             struct hm_diag *d)
 {
@@ -214,6 +216,27 @@ static enum hm_err add_breaklines(struct hm_build *b, struct hm_diag *d)
 
 /* --- measurements, and their hull --- */
 
+/* Of measurements that are to be no nodes only corners of their hull matter: drop the others. */
+static enum hm_err keep_corners(struct hm_build *b, struct hm_diag *d)
+{
+    const size_t stride = sizeof *b->node / sizeof(double), n = b->nnodes - b->first_point;
+    struct hm_node *from = b->node + b->first_point;
+    size_t *hull, corners;
+    enum hm_err err = hm_hull_build(&from->x, n, stride, &hull, &corners, NULL);
+    if (err) /* all on a line, so far */
+        return err == HM_EGEOM ? HM_OK : hm_fail_memory(d);
+    struct hm_node *kept = hm_alloc(corners, sizeof *kept);
+    for (size_t k = 0; kept && k < corners; k++)
+        kept[k] = from[hull[k]];
+    if (kept) {
+        memcpy(from, kept, corners * sizeof *kept);
+        b->nnodes = b->first_point + corners;
+    }
+    free(hull);
+    free(kept);
+    return kept ? HM_OK : hm_fail_memory(d);
+}
+
 /* Their heights come from the terrain: it knows what several at one place are worth together, and
  * whether a grid replaces them. */
 static enum hm_err add_points(struct hm_build *b, struct hm_diag *d)
@@ -232,6 +255,8 @@ static enum hm_err add_points(struct hm_build *b, struct hm_diag *d)
             }
             int32_t number;
             enum hm_err err = add_node(b, (double[3]){row[0], row[1], NAN}, &number, d);
+            if (!err && b->in->heights_only && (b->nnodes - b->first_point) % MANY == 0)
+                err = keep_corners(b, d);
             if (err)
                 return err;
         }

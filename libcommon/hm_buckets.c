@@ -60,21 +60,21 @@ enum hm_err hm_buckets_look(struct hm_buckets *b, int32_t v, struct hm_diag *d)
     return make_room(b, d);
 }
 
-int32_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p)
+size_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p)
 {
     const struct hm_tri *t = b->dom->tri;
-    int32_t nearest = b->star[0] / 3;
+    size_t nearest = 0;
     double least = INFINITY;
     for (size_t k = 0; k < b->n_star; k++) {
         const double *from = hm_tri_xy(t, hm_tri_dest(t, b->star[k]));
         const double *to = hm_tri_xy(t, hm_tri_apex(t, b->star[k]));
         double after = hm_area2(v, from, p), before = hm_area2(to, v, p);
         if (after >= 0 && before > 0)
-            return b->star[k] / 3;
+            return k;
         double beyond = -fmin(after, before);
         if (beyond < least && hm_area2(from, to, p) <= hm_area2(from, to, v)) {
             least = beyond;
-            nearest = b->star[k] / 3;
+            nearest = k;
         }
     }
     return nearest;
@@ -95,7 +95,7 @@ void hm_buckets_deal(struct hm_buckets *b, const double *v, int32_t but)
     for (int32_t c = all, next; c != HM_NOBODY; c = next) {
         next = b->next[c];
         if (c != but)
-            add(b, hm_buckets_sector(b, v, hm_buckets_at(b, c)), c);
+            add(b, b->star[hm_buckets_sector(b, v, hm_buckets_at(b, c))] / 3, c);
     }
 }
 

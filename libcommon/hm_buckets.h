@@ -30,9 +30,10 @@ static inline const double *hm_buckets_at(const struct hm_buckets *b, int32_t me
  * were there, and two more. */
 enum hm_err hm_buckets_look(struct hm_buckets *b, int32_t v, struct hm_diag *d);
 
-/* Which triangle of that star holds p, with the vertex at v? The one with p left of its first edge
- * and right of its last; for a p on the border, or at the vertex, as rounding has it. */
-int32_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p);
+/* Which triangle of that star holds p, with the vertex at v? The number of its edge: the one with p
+ * left of its first edge and right of its last; for a p on the border, or at the vertex, as
+ * rounding has it. */
+size_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p);
 
 /* Sort the measurements in that star anew, with the vertex at v; `but` is left out, for good. */
 void hm_buckets_deal(struct hm_buckets *b, const double *v, int32_t but);

@@ -200,17 +200,28 @@ static enum hm_err insert(struct greedy *g, int32_t tri, int32_t c)
     return err;
 }
 
+/* The worst triangle by now, or NONE. */
+static int32_t find_worst(struct greedy *g)
+{
+    g->done->error = 0;
+    if (g->n_heap == 0)
+        return NONE;
+    const struct standing *s = &g->standing[g->heap[0]];
+    g->done->error = s->error;
+    g->done->x = hm_buckets_at(&g->bucket, s->worst)[0];
+    g->done->y = hm_buckets_at(&g->bucket, s->worst)[1];
+    return g->heap[0];
+}
+
 static enum hm_err go(struct greedy *g)
 {
     enum hm_err err = HM_OK;
-    while (!err && g->n_heap > 0) {
-        int32_t tri = g->heap[0], c = g->standing[tri].worst;
-        g->done->error = g->standing[tri].error;
-        g->done->x = hm_buckets_at(&g->bucket, c)[0];
-        g->done->y = hm_buckets_at(&g->bucket, c)[1];
+    int32_t tri;
+    while (!err && (tri = find_worst(g)) != NONE) {
+        int32_t c = g->standing[tri].worst;
         if (g->done->error <= g->o->max_error ||
             (g->o->max_nodes > 0 && (int64_t)g->dom->nnodes + g->done->inserted >= g->o->max_nodes))
-            return HM_OK;
+            break;
         if (may_insert(g, tri, c)) {
             err = insert(g, tri, c);
             continue;
@@ -219,8 +230,15 @@ static enum hm_err go(struct greedy *g)
         hm_buckets_drop(&g->bucket, tri, c);
         err = scan(g, tri);
     }
-    g->done->error = g->n_heap > 0 ? g->done->error : 0;
     return err;
+}
+
+static void dispose(struct greedy *g)
+{
+    hm_buckets_free(&g->bucket);
+    free(g->z);
+    free(g->standing);
+    free(g->heap);
 }
 
 enum hm_err hm_greedy_reach(struct hm_domain *dom, const double *xyz, size_t n,
@@ -235,9 +253,19 @@ enum hm_err hm_greedy_reach(struct hm_domain *dom, const double *xyz, size_t n,
         err = fill(&g, xyz, n);
     if (!err)
         err = go(&g);
-    hm_buckets_free(&g.bucket);
-    free(g.z);
-    free(g.standing);
-    free(g.heap);
+    dispose(&g);
     return err ? err : hm_domain_adopt(dom, first, o->threads, d);
+}
+
+enum hm_err hm_greedy_look(struct hm_domain *dom, const double *xyz, size_t n, int threads,
+                           struct hm_greedy_done *done, struct hm_diag *d)
+{
+    const struct hm_greedy_options o = {.threads = threads};
+    struct greedy g = {.dom = dom, .o = &o, .done = done, .d = d};
+    *done = (struct hm_greedy_done){0};
+    enum hm_err err = fill(&g, xyz, n);
+    if (!err)
+        find_worst(&g);
+    dispose(&g);
+    return err;
 }

@@ -30,4 +30,9 @@ enum hm_err hm_greedy_reach(struct hm_domain *dom, const double *xyz, size_t n,
                             const struct hm_greedy_options *o, struct hm_greedy_done *done,
                             struct hm_diag *d);
 
+/* Only look: where the n measurements are farthest above or below the triangulated domain, whose
+ * nodes have heights. */
+enum hm_err hm_greedy_look(struct hm_domain *dom, const double *xyz, size_t n, int threads,
+                           struct hm_greedy_done *done, struct hm_diag *d);
+
 #endif

@@ -113,7 +113,7 @@ bool hm_star_look(const struct hm_star_rules *rules, int32_t v, struct hm_star *
         if (s->n == HM_STAR_MOST)
             return false;
         const double *a = hm_tri_xy(t, hm_tri_dest(t, e)), *b = hm_tri_xy(t, hm_tri_apex(t, e));
-        double area = hm_domain_area(rules->dom, e / 3), most;
+        double area = hm_area2(a, b, at) / 2, most; /* as hm_star_rate has them, to the last bit */
         most = hm_sizes_area((void *)sizes, (at[0] + a[0] + b[0]) / 3, (at[1] + a[1] + b[1]) / 3,
                              hm_tri_region(t, e / 3));
         s->corner[s->n] = a;
@@ -121,7 +121,7 @@ bool hm_star_look(const struct hm_star_rules *rules, int32_t v, struct hm_star *
         s->beyond[s->n++] = hm_star_area(rules, hm_tri_twin(t, hm_tri_next(e)));
         s->largest = fmax(s->largest, area);
         s->longest = fmax(s->longest, hm_star_length2(at, a));
-        s->worst = fmax(s->worst, hm_star_sharpest(at, a, b));
+        s->worst = fmax(s->worst, hm_star_sharpest(a, b, at));
         s->shortest = fmin(s->shortest, hm_star_length2(at, a));
         e = hm_tri_twin(t, hm_tri_prev(e));
     } while (e != first);

@@ -47,6 +47,18 @@ trimesh --quiet -m terrain -e 0.3 -q 28 -a 40 hills.xyz >good.hm
 true_that "and good angles on top" "$(quality --quiet good.hm hills.xyz |
     awk '/smallest angle  / { print $3 }') >= 28"
 
+for i in 0 5; do
+    ok "within 0.3 m, with 28 degrees, $i passes of smoothing" \
+        sh -c "trimesh -m terrain -e 0.3 -q 28 -a 40 -i $i hills.xyz 2>said >both$i.hm"
+    true_that "both hold" "$(worst both$i.hm hills.xyz) <= 0.3 && $(quality --quiet both$i.hm hills.xyz |
+        awk '/smallest angle  / { print $3 }') >= 28"
+    true_that "and nothing is said of errors left" "$(grep -c error said) == 0"
+    quality --quiet both$i.hm hills.xyz | awk '$1 == "all" { print $8 }' >rmse$i
+done
+true_that "smoothing takes no node" "$(nodes both0.hm) == $(nodes both5.hm)"
+true_that "and brings the mesh nearer to the ground" "$(cat rmse5) < 0.9 * $(cat rmse0)"
+trimesh --quiet -m terrain -e 0.3 -q 25 -g 2 hills.xyz >even.hm
+true_that "gradation, too, keeps to the error" "$(worst even.hm hills.xyz) <= 0.3"
 trimesh --quiet -m terrain -e 0.3 -L 5 hills.xyz >short.hm
 true_that "or edges" "$(awk '/^v/ { x[n + 0] = $2; y[n + 0] = $3; n++ }
     /^t/ { for (i = 2; i < 5; i++) { a = $i; b = $(i == 4 ? 2 : i + 1)

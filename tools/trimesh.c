@@ -13,6 +13,7 @@
 #include "hm_owners.h"
 #include "hm_paper.h"
 #include "hm_ruppert.h"
+#include "hm_settle.h"
 #include "hm_trim.h"
 
 #include <errno.h>
@@ -27,7 +28,10 @@ enum method { DELAUNAY, PAPER, QUALITY, TERRAIN };
 enum elevation { Z_TERRAIN, Z_MEAN, Z_FIT };
 enum line_z { LINE_GIVEN, LINE_TERRAIN };
 
-enum { MOST_ANGLE = 34 }; /* degrees; refinement need not end beyond */
+enum {
+    MOST_ANGLE = 34, /* degrees; refinement need not end beyond */
+    MOST_TURNS = 8   /* of insertion and refinement */
+};
 
 /* What the regular meshes keep clear at least (m): lidar's own resolution. */
 #define LEAST_CLEARANCE 0.001
@@ -165,6 +169,13 @@ static void check_command(struct hm_cli *cli)
 
 /* --- terrain --- */
 
+/* The terrain, and its measurements where errors are measured at them or heights fitted to them. */
+struct ground {
+    struct hm_terrain *terrain;
+    double *xyz;
+    size_t n;
+};
+
 static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inputs *in)
 {
     struct hm_diag d = {0};
@@ -173,6 +184,24 @@ static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inpu
     hm_cli_check(cli, hm_terrain_build(&terrain, in, 0, hm_cli_threads(cli), &counts, &d), &d);
     hm_cli_mended_points(cli, counts.without_z, counts.duplicates);
     return terrain;
+}
+
+static struct ground build_ground(struct hm_cli *cli, const struct hm_inputs *in)
+{
+    struct hm_diag d = {0};
+    struct ground ground = {.terrain = build_terrain(cli, in)};
+    if (cmd.method != TERRAIN && cmd.elevation != Z_FIT)
+        return ground;
+    hm_cli_check(cli, hm_terrain_measurements(ground.terrain, &ground.xyz, &ground.n, &d), &d);
+    if (ground.n == 0)
+        hm_cli_die(cli, "%s needs measurements", cmd.method == TERRAIN ? "-m terrain" : "-z fit");
+    return ground;
+}
+
+static void free_ground(struct ground *ground)
+{
+    hm_terrain_free(ground->terrain);
+    free(ground->xyz);
 }
 
 /* --- the mesh around --- */
@@ -350,8 +379,63 @@ static void bring_to_lengths(struct hm_cli *cli, const struct hm_header *header,
     say_left(cli, &left);
 }
 
-static void say_refined(struct hm_cli *cli, const struct hm_tri_refined *r)
+/* The sizes asked for; those of a grid stay in it. */
+static void read_sizes(struct hm_cli *cli, struct hm_grid *grid, struct hm_sizes *sizes)
 {
+    struct hm_diag d = {0};
+    struct hm_reader *r;
+    struct hm_header h;
+    sizes->max_area = cmd.max_area;
+    sizes->max_edge = cmd.max_edge;
+    if (!cmd.sizes)
+        return;
+    hm_cli_check(cli, hm_reader_open(&r, cmd.sizes, &d), &d);
+    hm_cli_check(cli, hm_reader_next(r, &h, &d), &d);
+    if (h.kind != HM_GRID)
+        hm_cli_die(cli, "%s: not a grid", cmd.sizes);
+    int column = hm_header_field(&h, "size");
+    sizes->band = column < 2 ? 0 : (size_t)column - 2;
+    hm_cli_check(cli, hm_grid_read(grid, r, &h, &d), &d);
+    hm_reader_close(r);
+    hm_cli_check(cli, hm_sizes_limit(grid, sizes->band, GRID_GROWTH, &d), &d);
+    sizes->grid = grid;
+}
+
+/* What refinement could not reach. */
+struct refined {
+    struct hm_tri_refined angles;
+    struct hm_even_left pairs;
+};
+
+static bool refines(void)
+{
+    return cmd.method == QUALITY || cmd.angle_given || cmd.area_given || cmd.max_given ||
+           cmd.sizes || cmd.gradation > 0;
+}
+
+/* Edges grow by the root of what areas may. */
+static void refine(struct hm_cli *cli, struct hm_domain *dom, const struct hm_sizes *sizes,
+                   struct refined *left)
+{
+    struct hm_diag d = {0};
+    double angle = cmd.method == QUALITY || cmd.angle_given ? cmd.min_angle : 0;
+    const struct hm_ruppert_options o = {.min_angle = angle,
+                                         .growth = cmd.gradation > 0 ? sqrt(cmd.gradation) - 1 : 0,
+                                         .sizes = sizes,
+                                         .threads = hm_cli_threads(cli)};
+    const struct hm_even_options even = {
+        .ratio = cmd.gradation, .min_angle = angle, .sizes = sizes, .threads = hm_cli_threads(cli)};
+    hm_cli_stage(cli, "angles and sizes");
+    hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left->angles, &d), &d);
+    left->pairs = (struct hm_even_left){0};
+    if (cmd.gradation > 0)
+        hm_cli_check(cli, hm_even_reach(dom, &even, &left->pairs, &d), &d);
+}
+
+static void say_refined(struct hm_cli *cli, const struct refined *left)
+{
+    const struct hm_tri_refined *r = &left->angles;
+    const struct hm_even_left *pairs = &left->pairs;
     if (r->small > 0)
         hm_cli_say(cli,
                    "%s under %g degrees left, at small angles of the lines or at "
@@ -361,84 +445,12 @@ static void say_refined(struct hm_cli *cli, const struct hm_tri_refined *r)
     if (r->large > 0 && (cmd.max_area > 0 || cmd.max_edge > 0 || cmd.sizes))
         hm_cli_say(cli, "%s over the maximum size left, at regular meshes",
                    hm_cli_counted(r->large, "element").text);
-}
-
-/* The grid of sizes; one without a size when the user gave none. */
-static void read_sizes(struct hm_cli *cli, struct hm_grid *grid, size_t *band)
-{
-    struct hm_diag d = {0};
-    struct hm_reader *r;
-    struct hm_header h;
-    if (!cmd.sizes)
-        return;
-    hm_cli_check(cli, hm_reader_open(&r, cmd.sizes, &d), &d);
-    hm_cli_check(cli, hm_reader_next(r, &h, &d), &d);
-    if (h.kind != HM_GRID)
-        hm_cli_die(cli, "%s: not a grid", cmd.sizes);
-    int column = hm_header_field(&h, "size");
-    *band = column < 2 ? 0 : (size_t)column - 2;
-    hm_cli_check(cli, hm_grid_read(grid, r, &h, &d), &d);
-    hm_reader_close(r);
-    hm_cli_check(cli, hm_sizes_limit(grid, *band, GRID_GROWTH, &d), &d);
-}
-
-/* Edges grow by the root of what areas may. */
-static void even_out(struct hm_cli *cli, struct hm_domain *dom, const struct hm_sizes *sizes,
-                     double min_angle)
-{
-    struct hm_diag d = {0};
-    struct hm_even_left left;
-    const struct hm_even_options o = {.ratio = cmd.gradation,
-                                      .min_angle = min_angle,
-                                      .sizes = sizes,
-                                      .threads = hm_cli_threads(cli)};
-    hm_cli_check(cli, hm_even_reach(dom, &o, &left, &d), &d);
-    if (left.pairs > 0)
+    if (pairs->pairs > 0)
         hm_cli_say(cli,
                    "%s of over %g times another's area left between fixed nodes, %lld at "
                    "regular meshes; the largest ratio, %.3g, at %.10g %.10g",
-                   hm_cli_counted(left.pairs, "element").text, cmd.gradation,
-                   (long long)left.regular, left.worst, left.x, left.y);
-}
-
-static void bring_to_sizes(struct hm_cli *cli, struct hm_domain *dom)
-{
-    struct hm_diag d = {0};
-    struct hm_tri_refined left;
-    struct hm_grid grid = {0};
-    struct hm_sizes sizes = {.dom = dom, .max_area = cmd.max_area, .max_edge = cmd.max_edge};
-    read_sizes(cli, &grid, &sizes.band);
-    sizes.grid = cmd.sizes ? &grid : NULL;
-    const struct hm_ruppert_options o = {
-        .min_angle = cmd.method == QUALITY || cmd.angle_given ? cmd.min_angle : 0,
-        .growth = cmd.gradation > 0 ? sqrt(cmd.gradation) - 1 : 0,
-        .sizes = &sizes,
-        .threads = hm_cli_threads(cli)};
-    hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left, &d), &d);
-    say_refined(cli, &left);
-    if (cmd.gradation > 0)
-        even_out(cli, dom, &sizes, o.min_angle);
-    hm_grid_free(&grid);
-}
-
-static void bring_to_error(struct hm_cli *cli, const double *xyz, size_t n, struct hm_domain *dom)
-{
-    struct hm_diag d = {0};
-    struct hm_greedy_done done;
-    const struct hm_greedy_options o = {.max_error = cmd.max_error,
-                                        .max_nodes = cmd.max_nodes,
-                                        .least = cmd.min_edge,
-                                        .clearance = cmd.clearance,
-                                        .threads = hm_cli_threads(cli)};
-    hm_cli_check(cli, hm_greedy_reach(dom, xyz, n, &o, &done, &d), &d);
-    if (done.refused > 0)
-        hm_cli_say(cli, "%s too near to nodes or lines passed over",
-                   hm_cli_counted(done.refused, "measurement").text);
-    if (done.error > cmd.max_error)
-        hm_cli_say(cli, "the largest vertical error left is %.3g m, at %.10g %.10g", done.error,
-                   done.x, done.y);
-    if (cmd.angle_given || cmd.area_given || cmd.max_given || cmd.sizes || cmd.gradation > 0)
-        bring_to_sizes(cli, dom);
+                   hm_cli_counted(pairs->pairs, "element").text, cmd.gradation,
+                   (long long)pairs->regular, pairs->worst, pairs->x, pairs->y);
 }
 
 /* New and moved nodes get the terrain's height. */
@@ -453,6 +465,84 @@ static void lift(struct hm_cli *cli, const struct hm_terrain *terrain, struct hm
         if (!isfinite(node->z))
             hm_cli_die(cli, "nothing tells the height at %.17g %.17g", node->x, node->y);
     }
+}
+
+/* --- meshes of angles and sizes, and of vertical errors --- */
+
+static void bring_to_quality(struct hm_cli *cli, const struct hm_sizes *sizes,
+                             struct hm_domain *dom)
+{
+    struct refined left;
+    refine(cli, dom, sizes, &left);
+    say_refined(cli, &left);
+}
+
+/* Insertion and refinement take turns, since each may undo a little of what the other did. */
+static void take_turns(struct hm_cli *cli, const struct ground *ground,
+                       const struct hm_greedy_options *o, const struct hm_sizes *sizes,
+                       struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct refined left;
+    struct hm_greedy_done done = {.inserted = 1};
+    for (int turn = 0; turn < MOST_TURNS && done.inserted > 0; turn++) {
+        refine(cli, dom, sizes, &left);
+        lift(cli, ground->terrain, dom);
+        done.inserted = 0;
+        if (cmd.error_given && turn + 1 < MOST_TURNS)
+            hm_cli_check(cli, hm_greedy_reach(dom, ground->xyz, ground->n, o, &done, &d), &d);
+    }
+    say_refined(cli, &left);
+}
+
+static void settle(struct hm_cli *cli, const struct ground *ground, const struct hm_sizes *sizes,
+                   double bound, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    const struct hm_settle_options o = {.terrain = ground->terrain,
+                                        .xyz = ground->xyz,
+                                        .n = ground->n,
+                                        .bound = bound,
+                                        .least = cmd.min_edge,
+                                        .ratio = cmd.gradation,
+                                        .sizes = sizes,
+                                        .passes = cmd.smooth,
+                                        .threads = hm_cli_threads(cli)};
+    int64_t moved;
+    hm_cli_stage(cli, "smoothing");
+    hm_cli_check(cli, hm_settle_reach(dom, &o, &moved, &d), &d);
+}
+
+static void bring_to_error(struct hm_cli *cli, const struct ground *ground,
+                           const struct hm_sizes *sizes, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_greedy_done done;
+    const struct hm_greedy_options o = {.max_error = cmd.max_error,
+                                        .max_nodes = cmd.max_nodes,
+                                        .least = cmd.min_edge,
+                                        .clearance = cmd.clearance,
+                                        .threads = hm_cli_threads(cli)};
+    hm_cli_stage(cli, "the vertical errors");
+    hm_cli_check(cli, hm_greedy_reach(dom, ground->xyz, ground->n, &o, &done, &d), &d);
+    if (done.refused > 0)
+        hm_cli_say(cli, "%s too near to nodes or lines passed over",
+                   hm_cli_counted(done.refused, "measurement").text);
+    if (refines())
+        take_turns(cli, ground, &o, sizes, dom);
+    lift(cli, ground->terrain, dom);
+    settle(cli, ground, sizes, fmax(cmd.max_error, done.error), dom);
+}
+
+static void say_error(struct hm_cli *cli, const struct ground *ground, struct hm_domain *dom)
+{
+    struct hm_diag d = {0};
+    struct hm_greedy_done done;
+    hm_cli_check(cli, hm_greedy_look(dom, ground->xyz, ground->n, hm_cli_threads(cli), &done, &d),
+                 &d);
+    if (done.error > cmd.max_error)
+        hm_cli_say(cli, "the largest vertical error left is %.3g m, at %.10g %.10g", done.error,
+                   done.x, done.y);
 }
 
 /* A mesh over ground that nobody surveyed looks like any other: say how much of it there is. Gaps
@@ -482,16 +572,6 @@ static void say_gaps(struct hm_cli *cli, const struct hm_terrain *terrain, const
                    empty, whole, 100 * empty / whole, gap);
 }
 
-/* What errors are measured at, and heights fitted to. */
-static void take_measurements(struct hm_cli *cli, const struct hm_terrain *terrain, double **xyz,
-                              size_t *n)
-{
-    struct hm_diag d = {0};
-    hm_cli_check(cli, hm_terrain_measurements(terrain, xyz, n, &d), &d);
-    if (*n == 0)
-        hm_cli_die(cli, "%s needs measurements", cmd.method == TERRAIN ? "-m terrain" : "-z fit");
-}
-
 int main(int argc, char **argv)
 {
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
@@ -499,39 +579,42 @@ int main(int argc, char **argv)
     struct hm_inputs in = {0};
     struct hm_domain dom = {0};
     struct hm_mesh mesh = {0};
+    struct hm_grid grid = {0};
+    struct hm_sizes sizes = {.dom = &dom};
     check_command(cli);
+    read_sizes(cli, &grid, &sizes);
     hm_cli_read_all(cli, &in);
     make_header(cli, &in, &mesh.header);
     hm_cli_stage(cli, "the terrain");
-    struct hm_terrain *terrain = build_terrain(cli, &in);
+    struct ground ground = build_ground(cli, &in);
     hm_cli_stage(cli, "points, lines and meshes");
     choose_clearance(cli, &in);
-    assemble(cli, &in, terrain, &dom);
+    assemble(cli, &in, ground.terrain, &dom);
+    for (size_t k = 0; k < in.npoints; k++) /* the terrain has them */
+        hm_points_free(&in.points[k]);
     if (cmd.method == PAPER)
         bring_to_lengths(cli, &mesh.header, &dom);
     if (cmd.method == QUALITY)
-        bring_to_sizes(cli, &dom);
-    double *xyz = NULL;
-    size_t n = 0;
-    if (cmd.method == TERRAIN || cmd.elevation == Z_FIT)
-        take_measurements(cli, terrain, &xyz, &n);
+        bring_to_quality(cli, &sizes, &dom);
     if (cmd.method == TERRAIN)
-        bring_to_error(cli, xyz, n, &dom);
+        bring_to_error(cli, &ground, &sizes, &dom);
     hm_cli_stage(cli, "heights");
     if (cmd.elevation != Z_MEAN)
-        lift(cli, terrain, &dom);
+        lift(cli, ground.terrain, &dom);
     if (cmd.elevation == Z_FIT)
-        hm_cli_check(cli, hm_fit_heights(&dom, xyz, n, hm_cli_threads(cli), &d), &d);
-    free(xyz);
+        hm_cli_check(cli, hm_fit_heights(&dom, ground.xyz, ground.n, hm_cli_threads(cli), &d), &d);
+    if (cmd.method == TERRAIN)
+        say_error(cli, &ground, &dom);
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
-    say_gaps(cli, terrain, &mesh);
+    say_gaps(cli, ground.terrain, &mesh);
     hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);
     if (hm_cli_verbose(cli))
         hm_cli_say(cli, "%s, %s", hm_cli_counted((int64_t)mesh.nnodes, "node").text,
                    hm_cli_counted((int64_t)mesh.nelems, "element").text);
     hm_mesh_free(&mesh);
     hm_domain_free(&dom);
-    hm_terrain_free(terrain);
+    hm_grid_free(&grid);
+    free_ground(&ground);
     hm_inputs_free(&in);
     return hm_cli_finish(cli);
 }

@@ -25,4 +25,10 @@ enum hm_err hm_batch_read(struct hm_batch *b, struct hm_reader *r, const struct 
                           struct hm_diag *d);
 void hm_batch_free(struct hm_batch *b);
 
+/* Give all points of the object to `take`, batch after batch, in order; with more than one thread
+ * the next ones are read meanwhile. take may change the rows. */
+enum hm_err hm_batch_each(struct hm_reader *r, const struct hm_header *h, int threads,
+                          enum hm_err (*take)(void *arg, struct hm_batch *b, struct hm_diag *d),
+                          void *arg, struct hm_diag *d);
+
 #endif

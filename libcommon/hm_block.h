@@ -43,8 +43,10 @@ static inline uint32_t hm_block_get_u32(const char *b)
 
 static inline void hm_block_put_u32(char *b, uint32_t v)
 {
-    for (int i = 0; i < 4; i++)
-        b[i] = (char)(v >> 8 * i);
+    b[0] = (char)v;
+    b[1] = (char)(v >> 8);
+    b[2] = (char)(v >> 16);
+    b[3] = (char)(v >> 24);
 }
 
 static inline double hm_block_get_f64(const char *b)
@@ -60,6 +62,28 @@ static inline void hm_block_put_f64(char *b, double v)
     uint64_t bits;
     memcpy(&bits, &v, sizeof bits);
     hm_block_put_u64(b, bits);
+}
+
+/* Turn n numbers from the order of the stream to that of this machine, or back. */
+static inline void hm_block_turn_f64s(double *v, size_t n)
+{
+    char *b = (char *)v;
+    for (size_t i = 0; __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ && i < n; i++)
+        v[i] = hm_block_get_f64(b + 8 * i);
+}
+
+/* n numbers at once */
+static inline void hm_block_get_f64s(double *to, const char *b, size_t n)
+{
+    memcpy(to, b, 8 * n);
+    hm_block_turn_f64s(to, n);
+}
+
+static inline void hm_block_put_f64s(char *b, const double *v, size_t n)
+{
+    memcpy(b, v, 8 * n);
+    for (size_t i = 0; __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ && i < n; i++)
+        hm_block_put_f64(b + 8 * i, v[i]);
 }
 
 static inline float hm_block_get_f32(const char *b)

@@ -4,14 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum state { MISSING, DATA, FRINGE };
-
-struct hm_bsurf_fringe {
-    int8_t *state; /* (n + 2) × (m + 2), ring included */
-    size_t *item;  /* positions of the fringe in it, ascending */
-    size_t n, cap;
-};
-
 /* rows and columns first, then diagonals */
 static const int direction[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
                                     {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -43,17 +35,6 @@ void hm_bsurf_free(struct hm_bsurf *s)
 
 /* --- the fringe --- */
 
-static size_t position(const struct hm_bsurf *s, int64_t i, int64_t j)
-{
-    return (size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1);
-}
-
-bool hm_bsurf_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
-{
-    return i >= 0 && j >= 0 && i < (int64_t)s->n && j < (int64_t)s->m &&
-           (!s->fringe || s->fringe->state[position(s, i, j)] == DATA);
-}
-
 static bool is_beside_data(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
     for (int k = 0; k < 8; k++)
@@ -67,15 +48,29 @@ static enum hm_err find_fringe(const struct hm_bsurf *s, struct hm_diag *d)
     struct hm_bsurf_fringe *f = s->fringe;
     for (int64_t j = -1; j <= (int64_t)s->m; j++)
         for (int64_t i = -1; i <= (int64_t)s->n; i++) {
-            size_t at = position(s, i, j);
-            if (f->state[at] == DATA || !is_beside_data(s, i, j))
+            size_t at = hm_bsurf_position(s, i, j);
+            if (f->state[at] == HM_BSURF_DATA || !is_beside_data(s, i, j))
                 continue;
             if (!hm_grow(&f->item, &f->cap, f->n + 1, sizeof *f->item))
                 return hm_fail_memory(d);
             f->item[f->n++] = at;
-            f->state[at] = FRINGE;
+            f->state[at] = HM_BSURF_FRINGE;
         }
     return HM_OK;
+}
+
+static void set_states(const struct hm_bsurf *s, const double *z)
+{
+    for (size_t j = 0; j < s->m; j++, z += s->n) {
+        int8_t *state = s->fringe->state + hm_bsurf_position(s, 0, (int64_t)j);
+        double *d = hm_bsurf_at(s, 0, (int64_t)j);
+        for (size_t i = 0; i < s->n; i++, d += s->dim) {
+            if (!isnan(z[i]))
+                state[i] = HM_BSURF_DATA;
+            else
+                memset(d, 0, s->dim * sizeof *d);
+        }
+    }
 }
 
 enum hm_err hm_bsurf_set_missing(struct hm_bsurf *s, const double *z, struct hm_diag *d)
@@ -91,19 +86,13 @@ enum hm_err hm_bsurf_set_missing(struct hm_bsurf *s, const double *z, struct hm_
     s->fringe->state = hm_alloc0((s->n + 2) * (s->m + 2), sizeof *s->fringe->state);
     if (!s->fringe->state)
         return hm_fail_memory(d);
-    for (k = 0; k < nodes; k++) {
-        size_t at = position(s, (int64_t)(k % s->n), (int64_t)(k / s->n));
-        if (!isnan(z[k]))
-            s->fringe->state[at] = DATA;
-        for (size_t c = 0; isnan(z[k]) && c < s->dim; c++)
-            s->d[at * s->dim + c] = 0;
-    }
+    set_states(s, z);
     return find_fringe(s, d);
 }
 
 bool hm_bsurf_knows(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
-    return !s->fringe || s->fringe->state[position(s, i, j)] != MISSING;
+    return !s->fringe || s->fringe->state[hm_bsurf_position(s, i, j)] != HM_BSURF_MISSING;
 }
 
 /* Mean of the linear extrapolations along directions first .. first+3; false when no direction has

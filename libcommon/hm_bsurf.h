@@ -12,7 +12,14 @@
 
 #include "hm_base.h"
 
-struct hm_bsurf_fringe;
+/* What a control point of a surface with missing ones is. */
+enum hm_bsurf_state { HM_BSURF_MISSING, HM_BSURF_DATA, HM_BSURF_FRINGE };
+
+struct hm_bsurf_fringe {
+    int8_t *state; /* (n + 2) × (m + 2), ring included */
+    size_t *item;  /* positions of the fringe in it, ascending */
+    size_t n, cap;
+};
 
 struct hm_bsurf {
     int degree;                     /* 1, 2 or 3, in both directions */
@@ -26,10 +33,16 @@ enum hm_err hm_bsurf_init(struct hm_bsurf *s, int degree, size_t n, size_t m, si
                           struct hm_diag *d);
 void hm_bsurf_free(struct hm_bsurf *s);
 
-/* Control point (i, j), -1 <= i <= n, -1 <= j <= m. */
+/* The position of control point (i, j) among all of them, -1 <= i <= n, -1 <= j <= m. */
+static inline size_t hm_bsurf_position(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    return (size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1);
+}
+
+/* Its coordinates. */
 static inline double *hm_bsurf_at(const struct hm_bsurf *s, int64_t i, int64_t j)
 {
-    return s->d + ((size_t)(j + 1) * (s->n + 2) + (size_t)(i + 1)) * s->dim;
+    return s->d + hm_bsurf_position(s, i, j) * s->dim;
 }
 
 /* Declare the control points missing for which z (n × m, row after row) is NaN, and set them
@@ -44,7 +57,11 @@ void hm_bsurf_extend(struct hm_bsurf *s);
 /* Has control point (i, j), ring included, coordinates of its own or extrapolated ones? */
 bool hm_bsurf_knows(const struct hm_bsurf *s, int64_t i, int64_t j);
 
-/* Has it data of its own? (False for the ring.) */
-bool hm_bsurf_has_data(const struct hm_bsurf *s, int64_t i, int64_t j);
+/* Has it data of its own? Never the ring, nor what lies beyond. */
+static inline bool hm_bsurf_has_data(const struct hm_bsurf *s, int64_t i, int64_t j)
+{
+    return i >= 0 && j >= 0 && i < (int64_t)s->n && j < (int64_t)s->m &&
+           (!s->fringe || s->fringe->state[hm_bsurf_position(s, i, j)] == HM_BSURF_DATA);
+}
 
 #endif

@@ -6,14 +6,18 @@
 
 enum { SIDE = 64, EMPTY = -1 };
 
-struct tile {
-    int64_t ti, tj; /* numbers of its cells divided by SIDE */
-    double sum[SIDE * SIDE];
-    uint64_t count[SIDE * SIDE];
-    double *place; /* sums of the distances from the nodes in x and y, in cells; or NULL */
+struct cell {
+    double sum;
+    uint64_t count;
 };
 
-/* Tiles are found by an open hash table of their numbers. */
+struct tile {
+    int64_t i0, j0; /* numbers of its first cell, multiples of SIDE */
+    double *place;  /* sums of the distances from the nodes in x and y, in cells; or NULL */
+    struct cell cell[SIDE * SIDE];
+};
+
+/* Tiles are found by an open hash table of their first cells. */
 struct hm_cellmean {
     double spacing;
     bool places;
@@ -58,11 +62,11 @@ void hm_cellmean_free(struct hm_cellmean *c)
 }
 
 /* The slot of a tile, or the empty one where it would go. */
-static size_t find_slot(const struct hm_cellmean *c, int64_t ti, int64_t tj)
+static size_t find_slot(const struct hm_cellmean *c, int64_t i0, int64_t j0)
 {
-    uint64_t hash = (uint64_t)ti * 0x9E3779B97F4A7C15u ^ (uint64_t)tj * 0xC2B2AE3D27D4EB4Fu;
-    size_t k = (size_t)(hash ^ hash >> 29) & (c->nslots - 1);
-    while (c->slot[k] != EMPTY && (c->tile[c->slot[k]]->ti != ti || c->tile[c->slot[k]]->tj != tj))
+    uint64_t hash = (uint64_t)i0 * 0x9E3779B97F4A7C15u + (uint64_t)j0 * 0xC2B2AE3D27D4EB4Fu;
+    size_t k = (size_t)(hash >> 32) & (c->nslots - 1);
+    while (c->slot[k] != EMPTY && (c->tile[c->slot[k]]->i0 != i0 || c->tile[c->slot[k]]->j0 != j0))
         k = (k + 1) & (c->nslots - 1);
     return k;
 }
@@ -78,18 +82,18 @@ static bool more_slots(struct hm_cellmean *c)
     for (size_t k = 0; k < c->nslots; k++)
         slot[k] = EMPTY;
     for (size_t t = 0; t < c->ntiles; t++)
-        slot[find_slot(c, c->tile[t]->ti, c->tile[t]->tj)] = (int64_t)t;
+        slot[find_slot(c, c->tile[t]->i0, c->tile[t]->j0)] = (int64_t)t;
     free(old);
     return true;
 }
 
-static struct tile *new_tile(const struct hm_cellmean *c, int64_t ti, int64_t tj)
+static struct tile *new_tile(const struct hm_cellmean *c, int64_t i0, int64_t j0)
 {
     struct tile *t = hm_alloc0(1, sizeof *t);
     if (!t)
         return NULL;
-    t->ti = ti;
-    t->tj = tj;
+    t->i0 = i0;
+    t->j0 = j0;
     if (c->places) {
         t->place = hm_alloc0(2 * SIDE * SIDE, sizeof *t->place);
         if (!t->place) {
@@ -100,52 +104,58 @@ static struct tile *new_tile(const struct hm_cellmean *c, int64_t ti, int64_t tj
     return t;
 }
 
-static struct tile *get_tile(struct hm_cellmean *c, int64_t ti, int64_t tj)
+/* A tile that was not the last: found, or made. */
+static struct tile *find_tile(struct hm_cellmean *c, int64_t i0, int64_t j0)
 {
-    if (c->last && c->last->ti == ti && c->last->tj == tj)
-        return c->last;
-    size_t k = find_slot(c, ti, tj);
+    size_t k = find_slot(c, i0, j0);
     if (c->slot[k] == EMPTY) {
         if (!hm_grow(&c->tile, &c->cap, c->ntiles + 1, sizeof *c->tile))
             return NULL;
         if (2 * (c->ntiles + 1) >= c->nslots) {
             if (!more_slots(c))
                 return NULL;
-            k = find_slot(c, ti, tj);
+            k = find_slot(c, i0, j0);
         }
-        struct tile *t = new_tile(c, ti, tj);
+        struct tile *t = new_tile(c, i0, j0);
         if (!t)
             return NULL;
         c->tile[c->ntiles] = t;
         c->slot[k] = (int64_t)c->ntiles++;
     }
-    return c->last = c->tile[c->slot[k]];
+    return c->tile[c->slot[k]];
 }
 
-/* floor(n / SIDE) for any sign */
-static int64_t tile_of(int64_t n)
+/* The number of the cell that is u spacings from the origin: floor(u + 1/2). */
+static inline int64_t cell_number(double u)
 {
-    return (n >= 0 ? n : n - (SIDE - 1)) / SIDE;
+    int64_t n = (int64_t)(u + 0.5);
+    return n - ((double)n > u + 0.5);
 }
 
-enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z, struct hm_diag *d)
+enum hm_err hm_cellmean_add(struct hm_cellmean *c, const double *xyz, size_t n, struct hm_diag *d)
 {
     const double farthest = 1e15; /* cells from the origin: doubles still tell neighbours apart */
-    double u = floor(x / c->spacing + 0.5), v = floor(y / c->spacing + 0.5);
-    if (fabs(u) > farthest || fabs(v) > farthest)
-        return hm_fail_at(d, HM_EGEOM, x, y, "a point too far off for a spacing of %g", c->spacing);
-    int64_t i = (int64_t)u, j = (int64_t)v;
-    int64_t ti = tile_of(i), tj = tile_of(j);
-    struct tile *t = get_tile(c, ti, tj);
-    if (!t)
-        return hm_fail_memory(d);
-    size_t cell = (size_t)((j - tj * SIDE) * SIDE + (i - ti * SIDE));
-    t->sum[cell] += z;
-    t->count[cell]++;
-    if (t->place) {
-        t->place[2 * cell] += x / c->spacing - u;
-        t->place[2 * cell + 1] += y / c->spacing - v;
+    const double spacing = c->spacing;
+    struct tile *t = c->last;
+    for (const double *p = xyz; p < xyz + 3 * n; p += 3) {
+        double u = p[0] / spacing, v = p[1] / spacing;
+        if (!(fabs(u) <= farthest) || !(fabs(v) <= farthest))
+            return hm_fail_at(d, HM_EGEOM, p[0], p[1], "a point too far off for a spacing of %g",
+                              spacing);
+        int64_t i = cell_number(u), j = cell_number(v);
+        int64_t a = i & (SIDE - 1), b = j & (SIDE - 1); /* in its tile, for any sign */
+        if ((!t || t->i0 != i - a || t->j0 != j - b) && !(t = find_tile(c, i - a, j - b)))
+            return hm_fail_memory(d);
+        struct cell *cell = &t->cell[b * SIDE + a];
+        cell->sum += p[2];
+        cell->count++;
+        if (t->place) {
+            double *place = t->place + 2 * (b * SIDE + a);
+            place[0] += u - (double)i;
+            place[1] += v - (double)j;
+        }
     }
+    c->last = t;
     return HM_OK;
 }
 
@@ -163,7 +173,7 @@ struct part {
 
 static struct part part_in(const struct tile *t, const struct hm_anchor *a)
 {
-    struct part p = {.left = t->ti * SIDE - a->i0, .bottom = t->tj * SIDE - a->j0};
+    struct part p = {.left = t->i0 - a->i0, .bottom = t->j0 - a->j0};
     overlap(p.left, a->nx, &p.i0, &p.i1);
     overlap(p.bottom, a->ny, &p.j0, &p.j1);
     return p;
@@ -180,10 +190,10 @@ static void spread(const struct hm_cellmean *c, const struct hm_anchor *a, bool 
         struct part p = part_in(t, a);
         for (int64_t j = p.j0; j < p.j1; j++)
             for (int64_t i = p.i0; i < p.i1; i++) {
-                size_t cell = (size_t)((j - p.bottom) * SIDE + (i - p.left));
-                double n = (double)t->count[cell];
-                if (t->count[cell])
-                    out[(size_t)j * a->nx + (size_t)i] = sums ? t->sum[cell] / n : n;
+                const struct cell *cell = &t->cell[(j - p.bottom) * SIDE + (i - p.left)];
+                double n = (double)cell->count;
+                if (cell->count)
+                    out[(size_t)j * a->nx + (size_t)i] = sums ? cell->sum / n : n;
             }
     }
 }
@@ -207,9 +217,9 @@ enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anch
     for (size_t k = 0; k < c->ntiles; k++) {
         const struct tile *t = c->tile[k];
         for (int64_t cell = 0; cell < SIDE * SIDE; cell++) {
-            int64_t i = t->ti * SIDE + cell % SIDE, j = t->tj * SIDE + cell / SIDE;
-            double count = (double)t->count[cell];
-            if (!t->count[cell] || i < a->i0 || i >= a->i0 + (int64_t)a->nx || j < a->j0 ||
+            int64_t i = t->i0 + cell % SIDE, j = t->j0 + cell / SIDE;
+            double count = (double)t->cell[cell].count;
+            if (!t->cell[cell].count || i < a->i0 || i >= a->i0 + (int64_t)a->nx || j < a->j0 ||
                 j >= a->j0 + (int64_t)a->ny)
                 continue;
             if (!hm_grow(xyz, &cap, 3 * (*n + 1), sizeof **xyz)) {
@@ -220,7 +230,7 @@ enum hm_err hm_cellmean_points(const struct hm_cellmean *c, const struct hm_anch
             double *p = *xyz + 3 * (*n)++;
             p[0] = ((double)i + t->place[2 * cell] / count) * c->spacing;
             p[1] = ((double)j + t->place[2 * cell + 1] / count) * c->spacing;
-            p[2] = t->sum[cell] / count;
+            p[2] = t->cell[cell].sum / count;
         }
     }
     return HM_OK;

@@ -15,8 +15,9 @@ struct hm_cellmean;
 enum hm_err hm_cellmean_new(struct hm_cellmean **c, double spacing, bool places, struct hm_diag *d);
 void hm_cellmean_free(struct hm_cellmean *c);
 
-/* Add a point with a height. HM_EGEOM when it is so far off that cells have no numbers there. */
-enum hm_err hm_cellmean_add(struct hm_cellmean *c, double x, double y, double z, struct hm_diag *d);
+/* Add n points x, y, z with heights. HM_EGEOM when one is so far off that cells have no numbers
+ * there. */
+enum hm_err hm_cellmean_add(struct hm_cellmean *c, const double *xyz, size_t n, struct hm_diag *d);
 
 /* Means of the nodes of `a`, row after row: z has a->nx * a->ny numbers, NaN where no point was. */
 void hm_cellmean_get(const struct hm_cellmean *c, const struct hm_anchor *a, double *z);

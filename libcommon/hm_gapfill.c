@@ -8,13 +8,22 @@
 /* Only nodes with data beside nodes without are triangulated: a Delaunay triangle over an empty
  * node has no others for corners (the circle through its corners reaches a neighbour of each of
  * them). Coordinates are whole numbers, so all geometry here is exact.
+ *
+ * Most empty nodes of a dense cloud are single: all four neighbours in the row and in the column
+ * have data. These four lie on one empty circle around the node, so Delaunay allows either
+ * diagonal; such a node gets the mean of both, and no triangulation. Nor is it a node without data
+ * to those around: a circle around another empty node that reaches a single one has one of its four
+ * neighbours inside.
  */
+enum mark { NOTHING, CORNER, SINGLE };
+
 struct fill {
     double *z;
     size_t nx, ny;
     double gap2;
+    uint8_t *mark;  /* what a node is, once there is an empty one */
     double *corner; /* i, j of the nodes triangulated */
-    size_t n, cap;
+    size_t n;
 };
 
 struct node {
@@ -26,26 +35,59 @@ static double *at(const struct fill *f, struct node p)
     return &f->z[(size_t)p.j * f->nx + (size_t)p.i];
 }
 
-static bool is_beside_empty(const struct fill *f, size_t i, size_t j)
+/* Fill the node k when it is single. */
+static bool fill_single(const struct fill *f, size_t k, size_t i, size_t j)
+{
+    if (i == 0 || j == 0 || i + 1 == f->nx || j + 1 == f->ny || f->gap2 < 2)
+        return false;
+    double mean = (f->z[k - 1] + f->z[k + 1]) / 4 + (f->z[k - f->nx] + f->z[k + f->nx]) / 4;
+    if (isnan(mean))
+        return false;
+    f->z[k] = mean;
+    f->mark[k] = SINGLE;
+    return true;
+}
+
+/* Nodes with data around the empty node i, j are corners. */
+static void mark_corners(struct fill *f, size_t i, size_t j)
 {
     for (size_t b = j > 0 ? j - 1 : 0; b <= j + 1 && b < f->ny; b++)
-        for (size_t a = i > 0 ? i - 1 : 0; a <= i + 1 && a < f->nx; a++)
-            if (isnan(f->z[b * f->nx + a]))
-                return true;
-    return false;
+        for (size_t a = i > 0 ? i - 1 : 0; a <= i + 1 && a < f->nx; a++) {
+            size_t k = b * f->nx + a;
+            if (isnan(f->z[k]) || f->mark[k] != NOTHING)
+                continue;
+            f->mark[k] = CORNER;
+            f->n++;
+        }
+}
+
+/* Fill the single nodes and mark what must be triangulated for the others. */
+static enum hm_err visit_empty(struct fill *f, struct hm_diag *d)
+{
+    for (size_t j = 0; j < f->ny; j++)
+        for (size_t i = 0; i < f->nx; i++) {
+            size_t k = j * f->nx + i;
+            if (!isnan(f->z[k]))
+                continue;
+            if (!f->mark && !(f->mark = hm_alloc0(f->nx * f->ny, sizeof *f->mark)))
+                return hm_fail_memory(d);
+            if (!fill_single(f, k, i, j))
+                mark_corners(f, i, j);
+        }
+    return HM_OK;
 }
 
 static enum hm_err collect(struct fill *f, struct hm_diag *d)
 {
-    for (size_t j = 0; j < f->ny; j++)
-        for (size_t i = 0; i < f->nx; i++) {
-            if (isnan(f->z[j * f->nx + i]) || !is_beside_empty(f, i, j))
-                continue;
-            if (!hm_grow(&f->corner, &f->cap, 2 * (f->n + 1), sizeof *f->corner))
-                return hm_fail_memory(d);
-            f->corner[2 * f->n] = (double)i;
-            f->corner[2 * f->n++ + 1] = (double)j;
-        }
+    double *to = f->corner = hm_alloc(2 * f->n, sizeof *f->corner);
+    if (!to)
+        return hm_fail_memory(d);
+    for (size_t j = 0; j < f->ny && f->n > 0; j++)
+        for (size_t i = 0; i < f->nx; i++)
+            if (f->mark[j * f->nx + i] == CORNER) {
+                *to++ = (double)i;
+                *to++ = (double)j;
+            }
     return HM_OK;
 }
 
@@ -148,7 +190,9 @@ static void fill_triangles(const struct fill *f, const struct hm_tri *t)
 enum hm_err hm_gapfill(double *z, size_t nx, size_t ny, double gap, int threads, struct hm_diag *d)
 {
     struct fill f = {.z = z, .nx = nx, .ny = ny, .gap2 = gap * gap};
-    enum hm_err err = collect(&f, d);
+    enum hm_err err = visit_empty(&f, d);
+    if (!err)
+        err = collect(&f, d);
     struct hm_tri *t = NULL;
     struct hm_diag flat = {0}; /* all on one line: there is no triangle to fill, and no failure */
     if (!err && f.n >= 3) {
@@ -160,5 +204,6 @@ enum hm_err hm_gapfill(double *z, size_t nx, size_t ny, double gap, int threads,
     }
     hm_tri_free(t);
     free(f.corner);
+    free(f.mark);
     return err;
 }

@@ -53,36 +53,62 @@ static enum hm_err make_room(struct hm_input *in, size_t need, struct hm_diag *d
     return hm_grow(&in->buf, &in->cap, need, 1) ? HM_OK : hm_fail_memory(d);
 }
 
+/* Read up to n bytes to `to`; *got is 0 at the end of the input only. */
+static enum hm_err read_some(struct hm_input *in, char *to, size_t n, size_t *got,
+                             struct hm_diag *d)
+{
+    ssize_t part;
+    do
+        part = read(in->fd, to, n);
+    while (part < 0 && errno == EINTR);
+    if (part < 0)
+        return hm_fail_line(d, HM_EIO, in->name, 0, "cannot read: %s", strerror(errno));
+    *got = (size_t)part;
+    in->eof = part == 0;
+    return HM_OK;
+}
+
 enum hm_err hm_input_fill(struct hm_input *in, size_t need, struct hm_diag *d)
 {
     if (hm_input_has(in) >= need || in->eof)
         return HM_OK;
     enum hm_err err = make_room(in, need, d);
-    if (err)
-        return err;
-    while (in->fill < need && !in->eof) {
-        ssize_t n = read(in->fd, in->buf + in->fill, in->cap - in->fill);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n < 0)
-            return hm_fail_line(d, HM_EIO, in->name, 0, "cannot read: %s", strerror(errno));
-        in->fill += (size_t)n;
-        in->eof = n == 0;
+    while (!err && in->fill < need && !in->eof) {
+        size_t got = 0;
+        err = read_some(in, in->buf + in->fill, in->cap - in->fill, &got, d);
+        in->fill += got;
+    }
+    return err;
+}
+
+/* Read n bytes past the buffer, which is empty, straight to where they belong. */
+static enum hm_err read_straight(struct hm_input *in, char *to, size_t n, struct hm_diag *d)
+{
+    in->offset += (int64_t)in->pos;
+    in->pos = in->fill = 0;
+    for (size_t got = 0; n > 0; n -= got, to += got) {
+        enum hm_err err = read_some(in, to, n, &got, d);
+        if (err)
+            return err;
+        if (got == 0)
+            return HM_END;
+        in->offset += (int64_t)got;
     }
     return HM_OK;
 }
 
 enum hm_err hm_input_read(struct hm_input *in, void *bytes, size_t n, struct hm_diag *d)
 {
+    enum { LARGE = 1 << 16 };
     for (char *to = bytes; n > 0;) {
-        size_t part = n < BUFFER ? n : BUFFER;
-        enum hm_err err = hm_input_fill(in, part, d);
+        if (to && n >= LARGE && hm_input_has(in) == 0 && !in->eof)
+            return read_straight(in, to, n, d);
+        enum hm_err err = hm_input_fill(in, 1, d);
         if (err)
             return err;
-        if (hm_input_has(in) < part) {
-            in->pos = in->fill;
+        size_t has = hm_input_has(in), part = has < n ? has : n;
+        if (part == 0)
             return HM_END;
-        }
         if (to) {
             memcpy(to, hm_input_at(in), part);
             to += part;

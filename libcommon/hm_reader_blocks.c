@@ -21,6 +21,12 @@ static enum hm_err wrong(const struct hm_reader *r, int64_t before, const char *
     return hm_input_fail_byte(&r->in, HM_EFORMAT, hm_input_tell(&r->in) - before, d, "%s", what);
 }
 
+static enum hm_err cut_off(const struct hm_reader *r, struct hm_diag *d)
+{
+    return hm_input_fail_byte(&r->in, HM_ETRUNC, hm_input_tell(&r->in), d,
+                              "cut off: no block \"done\"");
+}
+
 /* The next n bytes, which stay in the buffer until the next call. */
 static enum hm_err take(struct hm_reader *r, size_t n, const char **bytes, struct hm_diag *d)
 {
@@ -28,8 +34,7 @@ static enum hm_err take(struct hm_reader *r, size_t n, const char **bytes, struc
     if (err)
         return err;
     if (hm_input_has(&r->in) < n)
-        return hm_input_fail_byte(&r->in, HM_ETRUNC, hm_input_tell(&r->in), d,
-                                  "cut off: no block \"done\"");
+        return cut_off(r, d);
     *bytes = hm_input_at(&r->in);
     r->in.pos += n;
     return HM_OK;
@@ -90,29 +95,24 @@ static enum hm_err enter_block(struct hm_reader *r, const char *tag, struct hm_d
     return HM_OK;
 }
 
-/* n numbers of 8 bytes */
-static void get_numbers(double *to, const char *bytes, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        to[i] = hm_block_get_f64(bytes + 8 * i);
-}
-
 static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, size_t *n,
                                struct hm_diag *d)
 {
+    struct blocks *b = r->state;
     size_t k = r->nfields;
     while (*n < max) {
-        const char *bytes;
-        size_t got;
         enum hm_err err = enter_block(r, "pnts", d);
         if (err == HM_END)
             return *n > 0 ? HM_OK : HM_END;
-        if (!err)
-            err = take_records(r, 8 * k, max - *n, &bytes, &got, d);
         if (err)
             return err;
+        size_t got = max - *n < b->left ? max - *n : (size_t)b->left;
         double *v = rows + *n * k;
-        get_numbers(v, bytes, got * k);
+        err = hm_input_read(&r->in, v, 8 * k * got, d);
+        if (err)
+            return err == HM_END ? cut_off(r, d) : err;
+        hm_block_turn_f64s(v, got * k);
+        b->left -= got;
         for (size_t i = 0; i < got; i++)
             if (!hm_reader_good_place(v + i * k))
                 return wrong(r, (int64_t)((got - i) * 8 * k), hm_reader_bad_place(v + i * k), d);
@@ -141,7 +141,7 @@ static enum hm_err read_row(struct hm_reader *r, double *row, struct hm_diag *d)
             return err;
         double *v = row + at * bands;
         if (b->value == 8)
-            get_numbers(v, bytes, got * bands);
+            hm_block_get_f64s(v, bytes, got * bands);
         else
             for (size_t i = 0; i < got * bands; i++)
                 v[i] = (double)hm_block_get_f32(bytes + 4 * i);
@@ -193,7 +193,7 @@ static enum hm_err read_vertices(struct hm_reader *r, struct hm_diag *d)
         double v[3];
         if ((err = take(r, sizeof v, &bytes, d)))
             return err;
-        get_numbers(v, bytes, 3);
+        hm_block_get_f64s(v, bytes, 3);
         if (!hm_reader_good_place(v))
             return wrong(r, sizeof v, hm_reader_bad_place(v), d);
         err = hm_reader_add_vertex(r, v, d);
@@ -222,7 +222,7 @@ static enum hm_err read_node(struct hm_reader *r, struct hm_mesh *m, struct hm_d
     enum hm_err err = take(r, NODE_BYTES, &bytes, d);
     if (err)
         return err;
-    get_numbers(xyz, bytes, 3);
+    hm_block_get_f64s(xyz, bytes, 3);
     const char *why = hm_reader_make_node(&node, xyz, (int64_t)hm_block_get_u64(bytes + 24),
                                           (int64_t)hm_block_get_u64(bytes + 32));
     return why ? wrong(r, NODE_BYTES, why, d) : hm_mesh_add_node(m, node, d);

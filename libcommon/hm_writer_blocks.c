@@ -27,6 +27,7 @@ static enum hm_err put_block(struct hm_writer *w, const char *tag, struct hm_dia
 static enum hm_err next_records(struct hm_writer *w, const char *tag, size_t most, char **to,
                                 size_t *n, struct hm_diag *d)
 {
+    *to = NULL;
     if (w->block_n == HM_BLOCK_RECORDS) {
         enum hm_err err = put_block(w, tag, d);
         if (err)
@@ -46,12 +47,6 @@ static enum hm_err next_record(struct hm_writer *w, const char *tag, char **to, 
     return next_records(w, tag, 1, to, &one, d);
 }
 
-static void put_numbers(char *to, const double *v, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        hm_block_put_f64(to + 8 * i, v[i]);
-}
-
 static enum hm_err begin(struct hm_writer *w, struct hm_diag *d)
 {
     (void)d;
@@ -69,7 +64,7 @@ static enum hm_err put_points(struct hm_writer *w, const double *rows, size_t n,
         enum hm_err err = next_records(w, "pnts", n - i, &to, &got, d);
         if (err)
             return err;
-        put_numbers(to, rows + i * w->nfields, got * w->nfields);
+        hm_block_put_f64s(to, rows + i * w->nfields, got * w->nfields);
     }
     return HM_OK;
 }
@@ -86,7 +81,7 @@ static enum hm_err put_row(struct hm_writer *w, const double *row, struct hm_dia
             for (size_t b = 0; b < got * bands; b++)
                 hm_block_put_f32(to + 4 * b, (float)row[b]);
         else
-            put_numbers(to, row, got * bands);
+            hm_block_put_f64s(to, row, got * bands);
     }
     return HM_OK;
 }
@@ -102,7 +97,7 @@ static enum hm_err put_line(struct hm_writer *w, const struct hm_line *line, con
         char *to;
         err = next_record(w, "vert", &to, d);
         if (!err)
-            put_numbers(to, line->xyz + 3 * i, 3);
+            hm_block_put_f64s(to, line->xyz + 3 * i, 3);
     }
     return err ? err : put_block(w, "vert", d);
 }
@@ -117,7 +112,7 @@ static enum hm_err put_nodes(struct hm_writer *w, const struct hm_mesh *m, struc
         enum hm_err err = next_record(w, "vert", &to, d);
         if (err)
             return err;
-        put_numbers(to, xyz, 3);
+        hm_block_put_f64s(to, xyz, 3);
         hm_block_put_u64(to + 24, (uint64_t)node->flags);
         hm_block_put_u64(to + 32, (uint64_t)node->owner);
     }

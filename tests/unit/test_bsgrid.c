@@ -114,7 +114,7 @@ static void test_cellmean(void)
             count[node]++;
             sum_x += x;
         }
-        hm_cellmean_add(c, x, y, h, NULL);
+        hm_cellmean_add(c, (const double[]){x, y, h}, 1, NULL);
     }
     hm_cellmean_get(c, &a, z);
     bool same = true;
@@ -135,7 +135,8 @@ static void test_cellmean(void)
     ok(n == cells && inside == n, "mean points lie in their cells");
     near(whole, sum_x, 1e-7, "and have the points' centre of gravity");
     free(xyz);
-    ok(hm_cellmean_add(c, 1e300, 0, 1, NULL) == HM_EGEOM, "a point too far off is refused");
+    ok(hm_cellmean_add(c, (const double[]){1e300, 0, 1}, 1, NULL) == HM_EGEOM,
+       "a point too far off is refused");
     hm_cellmean_free(c);
 }
 
@@ -216,6 +217,66 @@ static void test_gapfill(void)
     ok(!hm_gapfill(line, 6, 1, 8, 1, NULL) && isnan(line[1]), "nor do those on one line");
 }
 
+enum { FEW = 11 };
+struct heights {
+    double low, high;
+};
+
+/* Widen h by the height at p of every triangle of nodes with data over p whose circle is empty: all
+ * that Delaunay allows. */
+static void allow(const double *z, const int t[3], int p, struct heights *h)
+{
+    double xy[3][2], at[2] = {p % FEW, p / FEW}, area = 0, height = 0;
+    for (int k = 0; k < 3; k++) {
+        xy[k][0] = t[k] % FEW;
+        xy[k][1] = t[k] / FEW;
+    }
+    if (hm_pred_orient(xy[0], xy[1], xy[2]) <= 0)
+        return;
+    for (int k = 0; k < 3; k++) {
+        const double *a = xy[(k + 1) % 3], *b = xy[(k + 2) % 3];
+        double w = (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]);
+        if (w < 0)
+            return;
+        area += w;
+        height += w * z[t[k]];
+    }
+    for (int q = 0; q < FEW * FEW; q++)
+        if (!isnan(z[q]) &&
+            hm_pred_incircle(xy[0], xy[1], xy[2], (const double[]){q % FEW, q / FEW}) > 0)
+            return;
+    h->low = fmin(h->low, height / area);
+    h->high = fmax(h->high, height / area);
+}
+
+/* What is filled lies within what the Delaunay triangles over it say, by brute force; it is exactly
+ * that where they agree. */
+static void test_gapfill_delaunay(double share)
+{
+    double z[FEW * FEW], filled[FEW * FEW];
+    int data[FEW * FEW], n = 0, wrong = 0, beyond = 0;
+    for (int k = 0; k < FEW * FEW; k++) {
+        z[k] = filled[k] = uniform() < share ? NAN : uniform();
+        if (!isnan(z[k]))
+            data[n++] = k;
+    }
+    hm_gapfill(filled, FEW, FEW, 1e6, 1, NULL);
+    for (int p = 0; p < FEW * FEW; p++) {
+        struct heights h = {INFINITY, -INFINITY};
+        if (!isnan(z[p]))
+            continue;
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n; b++)
+                for (int c = a + 1; c < n && b > a; c++)
+                    allow(z, (const int[]){data[a], data[b], data[c]}, p, &h);
+        beyond += h.low > h.high;
+        wrong += h.low > h.high ? !isnan(filled[p])
+                                : !(filled[p] > h.low - 1e-12 && filled[p] < h.high + 1e-12);
+    }
+    ok(wrong == 0 && beyond < FEW * FEW / 2, "gaps of %g of the nodes are filled as Delaunay says",
+       share);
+}
+
 int main(void)
 {
     test_anchor();
@@ -228,5 +289,8 @@ int main(void)
         for (int over = 1; over <= 4; over++)
             test_bsample(degree, over);
     test_gapfill();
+    test_gapfill_delaunay(0.08);
+    test_gapfill_delaunay(0.3);
+    test_gapfill_delaunay(0.7);
     return done();
 }

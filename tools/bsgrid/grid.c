@@ -93,6 +93,12 @@ struct place {
     bool on_column, on_row; /* it lies on a line of nodes: the next does not matter */
 };
 
+/* The node of which the fine node n is part: n / over, rounded. */
+static int64_t nearest(int64_t n)
+{
+    return coarse(n + cmd.over / 2);
+}
+
 /* Heights between nodes count where all of them have data. */
 static bool is_known(const struct hm_bsurf *s, const struct place *p)
 {
@@ -117,73 +123,89 @@ struct rows {
     double *z, *zu, *zv;
 };
 
-/* What became of the nodes. */
-struct nodes {
-    size_t empty, overflowed;
+/* The grid on its way out. */
+struct flow {
+    const struct survey *s;
+    const struct hm_bsurf *b;
+    struct extras e;
+    struct rows rows;
+    size_t empty, overflowed; /* nodes */
 };
 
-/* The bands of one node, of which `at` is the place in the rows. */
-static double *put_node(const struct survey *s, const struct hm_bsurf *b, const struct extras *e,
-                        const struct rows *r, const struct place *p, size_t at, double *to,
-                        struct nodes *nodes)
+/* The bands of one node. */
+static double *put_node(struct flow *f, const struct place *p, double *to)
 {
-    size_t node = (size_t)(p->j - s->fine.j0) * s->fine.nx + (size_t)(p->i - s->fine.i0);
-    bool known = is_known(b, p) && (!e->in || e->in[node]);
-    *to++ = known && isfinite(r->z[at]) ? r->z[at] : NAN;
-    nodes->empty += !known || !isfinite(r->z[at]);
-    nodes->overflowed += known && !isfinite(r->z[at]);
+    const struct hm_anchor *fine = &f->s->fine;
+    size_t node = (size_t)(p->j - fine->j0) * fine->nx + (size_t)(p->i - fine->i0);
+    size_t at = (size_t)(p->i - f->s->nodes.i0 * cmd.over);
+    double z = f->rows.z[at];
+    bool known = is_known(f->b, p) && (!f->e.in || f->e.in[node]);
+    bool good = known && isfinite(z);
+    *to++ = good ? z : NAN;
+    f->empty += !good;
+    f->overflowed += known && !good;
     if (cmd.derivatives) {
-        bool tells = known && tells_slope(b, p);
-        *to++ = tells ? r->zu[at] / cmd.spacing : NAN;
-        *to++ = tells ? r->zv[at] / cmd.spacing : NAN;
+        bool tells = known && tells_slope(f->b, p);
+        *to++ = tells ? f->rows.zu[at] / cmd.spacing : NAN;
+        *to++ = tells ? f->rows.zv[at] / cmd.spacing : NAN;
     }
-    int64_t i = coarse(p->i + cmd.over / 2), j = coarse(p->j + cmd.over / 2);
     if (cmd.count)
-        *to++ = count_around(e, i, j, 0);
+        *to++ = count_around(&f->e, nearest(p->i), nearest(p->j), 0);
     if (cmd.density)
-        *to++ = count_around(e, i, j, 1) / (9 * cmd.spacing * cmd.spacing);
+        *to++ =
+            count_around(&f->e, nearest(p->i), nearest(p->j), 1) / (9 * cmd.spacing * cmd.spacing);
     return to;
 }
 
-static void say_odd_nodes(struct hm_cli *cli, const struct survey *s, const struct nodes *n)
+/* The bands of row j of the fine lattice. */
+static void put_row(struct flow *f, int64_t j, double *to)
 {
-    if (n->overflowed > 0)
+    const struct hm_anchor *fine = &f->s->fine, *nodes = &f->s->nodes;
+    struct place p = {.i = fine->i0, .j = j, .a = coarse(fine->i0), .b = coarse(j) - nodes->j0};
+    int64_t beyond = p.i - p.a * cmd.over; /* the line of nodes before */
+    p.a -= nodes->i0;
+    p.on_row = j % cmd.over == 0;
+    for (size_t k = 0; k < fine->nx; k++, p.i++) {
+        p.on_column = beyond == 0;
+        to = put_node(f, &p, to);
+        if (++beyond == cmd.over) {
+            beyond = 0;
+            p.a++;
+        }
+    }
+}
+
+static void say_nodes(struct hm_cli *cli, const struct flow *f)
+{
+    const struct hm_anchor *fine = &f->s->fine;
+    hm_cli_say(cli, "%s, %zu x %zu nodes, %zu of them empty (nan)",
+               hm_cli_counted(f->s->used, "point").text, fine->nx, fine->ny, f->empty);
+    if (f->overflowed > 0)
         hm_cli_say(cli, "warning: the heights around %s are too large to reckon with",
-                   hm_cli_counted((int64_t)n->overflowed, "node").text);
-    else if (n->empty == s->fine.nx * s->fine.ny)
+                   hm_cli_counted((int64_t)f->overflowed, "node").text);
+    else if (f->empty == fine->nx * fine->ny)
         hm_cli_say(cli, "warning: no node has a height: see the gap limit (-g), %s%s",
                    cmd.region ? "the window (-R), " : "",
                    cmd.mask ? "the mask" : "the spacing (-d)");
 }
 
-static void write_rows(struct hm_cli *cli, const struct survey *s, const struct hm_bsurf *b,
-                       const struct extras *e, struct hm_bsample *sample)
+static void write_rows(struct hm_cli *cli, struct flow *f, struct hm_bsample *sample)
 {
     struct hm_diag d = {0};
+    const struct hm_anchor *fine = &f->s->fine, *nodes = &f->s->nodes;
     size_t bands = 1 + 2 * (size_t)cmd.derivatives + cmd.count + cmd.density;
-    struct nodes nodes = {0};
-    size_t width = (s->nodes.nx - 1) * (size_t)cmd.over + 1;
-    double *z = need(cli, 3 * width, sizeof *z), *row = need(cli, s->fine.nx * bands, sizeof *row);
-    struct rows r = {z, cmd.derivatives ? z + width : NULL, cmd.derivatives ? z + 2 * width : NULL};
-    struct place p;
-    for (p.j = s->fine.j0; p.j < s->fine.j0 + (int64_t)s->fine.ny; p.j++) {
-        hm_bsample_row(sample, (size_t)(p.j - s->nodes.j0 * cmd.over), r.z, r.zu, r.zv);
-        p.b = coarse(p.j) - s->nodes.j0;
-        p.on_row = p.j % cmd.over == 0;
-        double *to = row;
-        for (p.i = s->fine.i0; p.i < s->fine.i0 + (int64_t)s->fine.nx; p.i++) {
-            p.a = coarse(p.i) - s->nodes.i0;
-            p.on_column = p.i % cmd.over == 0;
-            size_t at = (size_t)(p.i - s->nodes.i0 * cmd.over);
-            to = put_node(s, b, e, &r, &p, at, to, &nodes);
-        }
+    size_t width = (nodes->nx - 1) * (size_t)cmd.over + 1;
+    double *z = need(cli, 3 * width, sizeof *z), *row = need(cli, fine->nx * bands, sizeof *row);
+    f->rows = cmd.derivatives ? (struct rows){z, z + width, z + 2 * width} : (struct rows){.z = z};
+    for (size_t k = 0; k < fine->ny; k++) {
+        int64_t j = fine->j0 + (int64_t)k;
+        hm_bsample_row(sample, (size_t)(j - nodes->j0 * cmd.over), f->rows.z, f->rows.zu,
+                       f->rows.zv);
+        put_row(f, j, row);
         hm_cli_check(cli, hm_writer_row(hm_cli_writer(cli), row, &d), &d);
-        hm_cli_progress(cli, "writing", (double)(p.j - s->fine.j0 + 1) / (double)s->fine.ny);
+        hm_cli_progress(cli, "writing", (double)(k + 1) / (double)fine->ny);
     }
     hm_cli_check(cli, hm_writer_end(hm_cli_writer(cli), &d), &d);
-    hm_cli_say(cli, "%s, %zu x %zu nodes, %zu of them empty (nan)",
-               hm_cli_counted(s->used, "point").text, s->fine.nx, s->fine.ny, nodes.empty);
-    say_odd_nodes(cli, s, &nodes);
     free(z);
     free(row);
 }
@@ -192,11 +214,12 @@ void write_grid(struct hm_cli *cli, const struct survey *s, const struct hm_bsur
 {
     struct hm_diag d = {0};
     struct hm_bsample *sample;
-    struct extras e = make_extras(cli, s);
+    struct flow f = {.s = s, .b = b, .e = make_extras(cli, s)};
     hm_cli_check(cli, hm_bsample_new(&sample, b, cmd.over, &d), &d);
     begin_grid(cli, s);
-    write_rows(cli, s, b, &e, sample);
+    write_rows(cli, &f, sample);
+    say_nodes(cli, &f);
     hm_bsample_free(sample);
-    free(e.count);
-    free(e.in);
+    free(f.e.count);
+    free(f.e.in);
 }

@@ -20,28 +20,6 @@ static void widen(struct spread *s, const double *p)
     }
 }
 
-static enum hm_err add_point(struct survey *s, const double *p, struct hm_diag *d)
-{
-    if (p[0] < s->reach[0] || p[0] > s->reach[1] || p[1] < s->reach[2] || p[1] > s->reach[3])
-        return HM_OK;
-    if (!isfinite(p[2])) {
-        s->without_z++;
-        return HM_OK;
-    }
-    s->used++;
-    widen(&s->spread, p);
-    s->box[0] = fmin(s->box[0], p[0]);
-    s->box[1] = fmax(s->box[1], p[0]);
-    s->box[2] = fmin(s->box[2], p[1]);
-    s->box[3] = fmax(s->box[3], p[1]);
-    if (!s->hold)
-        return hm_cellmean_add(s->cells, p[0], p[1], p[2], d);
-    if (!hm_grow(&s->xyz, &s->cap, 3 * (s->n + 1), sizeof *s->xyz))
-        return hm_fail_memory(d);
-    memcpy(s->xyz + 3 * s->n++, p, 3 * sizeof *p);
-    return HM_OK;
-}
-
 /* Columns of what decides whether a point is taken; -1: does not matter. */
 struct filter {
     int class, number, of; /* number of the return, of so many */
@@ -62,40 +40,93 @@ static struct filter make_filter(struct hm_cli *cli, const struct hm_header *h)
     return f;
 }
 
+static bool is_class_wanted(const struct survey *s, double class)
+{
+    return class >= 0 && class < CLASSES && s->wanted[(int)class];
+}
+
 static bool is_wanted(const struct survey *s, const struct filter *f, const double *p)
 {
-    if (f->class >= 0 &&
-        !(p[f->class] >= 0 && p[f->class] < CLASSES && s->wanted[(int)p[f->class]]))
+    if (f->class >= 0 && !is_class_wanted(s, p[f->class]))
         return false;
-    switch (cmd.returns) {
-    case FIRST:
-        return p[f->number] == 1;
-    case LAST:
-        return p[f->number] == p[f->of];
-    case ONLY:
-        return p[f->of] == 1;
-    default:
-        return true;
+    return cmd.returns == ALL || (cmd.returns == FIRST  ? p[f->number] == 1
+                                  : cmd.returns == LAST ? p[f->number] == p[f->of]
+                                                        : p[f->of] == 1);
+}
+
+/* Bring the points that count to the front of a batch, x, y, z each; returns their number. */
+static size_t pick_points(struct survey *s, const struct filter *f, double *rows, size_t n,
+                          size_t nfields)
+{
+    const double *w = s->reach;
+    double *to = rows;
+    bool all = f->class < 0 && cmd.returns == ALL;
+    for (const double *p = rows; p < rows + n * nfields; p += nfields) {
+        double x = p[0], y = p[1], z = p[2]; /* `to` may be p */
+        if (x < w[0] || x > w[1] || y < w[2] || y > w[3] || !(all || is_wanted(s, f, p)))
+            continue;
+        if (!isfinite(z)) {
+            s->without_z++;
+            continue;
+        }
+        to[0] = x;
+        to[1] = y;
+        to[2] = z;
+        to += 3;
     }
+    return (size_t)(to - rows) / 3;
+}
+
+/* Extent and spread of the survey, with these points. */
+static void measure_points(struct survey *s, const double *xyz, size_t n)
+{
+    double w = s->box[0], e = s->box[1], south = s->box[2], north = s->box[3];
+    for (const double *p = xyz; p < xyz + 3 * n; p += 3) {
+        w = p[0] < w ? p[0] : w;
+        e = p[0] > e ? p[0] : e;
+        south = p[1] < south ? p[1] : south;
+        north = p[1] > north ? p[1] : north;
+    }
+    memcpy(s->box, (const double[]){w, e, south, north}, sizeof s->box);
+    for (size_t k = 0; k < n && s->spread.over != AN_AREA; k++)
+        widen(&s->spread, xyz + 3 * k);
+    s->used += (int64_t)n;
+}
+
+static enum hm_err add_points(struct survey *s, const double *xyz, size_t n, struct hm_diag *d)
+{
+    measure_points(s, xyz, n);
+    if (!s->hold)
+        return hm_cellmean_add(s->cells, xyz, n, d);
+    if (!hm_grow(&s->xyz, &s->cap, 3 * (s->n + n), sizeof *s->xyz))
+        return hm_fail_memory(d);
+    memcpy(s->xyz + 3 * s->n, xyz, 3 * n * sizeof *xyz);
+    s->n += n;
+    return HM_OK;
+}
+
+/* The points of one object on their way. */
+struct flow {
+    struct hm_cli *cli;
+    struct survey *survey;
+    struct filter filter;
+    size_t nfields;
+};
+
+static enum hm_err take_batch(void *arg, struct hm_batch *b, struct hm_diag *d)
+{
+    const struct flow *f = arg;
+    size_t n = pick_points(f->survey, &f->filter, b->rows, b->n, f->nfields);
+    hm_cli_progress_points(f->cli, b->n);
+    return add_points(f->survey, b->rows, n, d);
 }
 
 void read_points(struct hm_cli *cli, struct survey *s, const struct hm_header *h)
 {
-    struct hm_reader *r = hm_cli_reader(cli);
-    struct filter filter = make_filter(cli, h);
+    struct flow f = {cli, s, make_filter(cli, h), h->nfields};
     struct hm_diag d = {0};
-    struct hm_batch b = {0};
-    enum hm_err err = HM_OK;
-    while (!err && !(err = hm_batch_read(&b, r, h, &d))) {
-        for (size_t k = 0; k < b.n && !err; k++) {
-            const double *p = b.rows + k * h->nfields;
-            if (is_wanted(s, &filter, p))
-                err = add_point(s, p, &d);
-        }
-        hm_cli_progress_points(cli, b.n);
-    }
-    hm_cli_check(cli, err, &d);
-    hm_batch_free(&b);
+    hm_cli_check(cli, hm_batch_each(hm_cli_reader(cli), h, hm_cli_threads(cli), take_batch, &f, &d),
+                 &d);
 }
 
 /* Points that span no area tell no surface. */

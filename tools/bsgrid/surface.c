@@ -29,10 +29,7 @@ struct hm_cellmean *sum_cells(struct hm_cli *cli, const struct survey *s)
     struct hm_cellmean *cells;
     struct hm_diag d = {0};
     hm_cli_check(cli, hm_cellmean_new(&cells, cmd.spacing, false, &d), &d);
-    for (size_t k = 0; k < s->n; k++) {
-        const double *p = s->xyz + 3 * k;
-        hm_cli_check(cli, hm_cellmean_add(cells, p[0], p[1], p[2], &d), &d);
-    }
+    hm_cli_check(cli, hm_cellmean_add(cells, s->xyz, s->n, &d), &d);
     return cells;
 }
 

@@ -107,6 +107,7 @@ static bool open_operand(struct hm_cli *cli)
     else
         hm_cli_check(cli, hm_reader_open(&cli->reader, cli->operands[cli->opened++], &d), &d);
     hm_reader_strict(cli->reader, cli->strict);
+    hm_reader_threads(cli->reader, cli->threads);
     hm_reader_foreign(cli->reader, cli->program->foreign);
     cli->dropped = 0;
     return true;

@@ -54,12 +54,18 @@ void hm_reader_close(struct hm_reader *r)
     free(r->attrs);
     free(r->xyz);
     free(r->row);
+    hm_reader_free_plain(r);
     free(r);
 }
 
 void hm_reader_strict(struct hm_reader *r, bool strict)
 {
     r->strict = strict;
+}
+
+void hm_reader_threads(struct hm_reader *r, int threads)
+{
+    r->threads = threads;
 }
 
 void hm_reader_foreign(struct hm_reader *r, const struct hm_foreign *list)

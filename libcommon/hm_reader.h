@@ -35,6 +35,8 @@ void hm_reader_close(struct hm_reader *r);
 
 /* A count in a header that disagrees with the data becomes an error (it is ignored otherwise). */
 void hm_reader_strict(struct hm_reader *r, bool strict);
+/* Threads that the reader may use (else one); what it gives is the same for any number. */
+void hm_reader_threads(struct hm_reader *r, int threads);
 
 /* A format of other programs, read whole, for those who ask for it (hm_import). */
 struct hm_input;

@@ -33,6 +33,7 @@ struct hm_reader_form {
 struct hm_reader {
     struct hm_input in;
     bool strict;
+    int threads;
     bool any;                         /* an object was found */
     const struct hm_foreign *foreign; /* formats known besides, or NULL */
     const struct hm_foreign *found;   /* that of this object */
@@ -58,6 +59,7 @@ struct hm_reader {
     size_t xyz_n, xyz_cap; /* doubles */
     double *row;
     size_t row_cap;
+    struct hm_reader_plain *plain; /* many lines at once; NULL until needed */
 };
 
 extern const struct hm_reader_form hm_reader_text;  /* the project's text */
@@ -77,6 +79,13 @@ bool hm_reader_is_ascii_grid(const char *s, const char *end);
 /* The project's binary: r->form becomes it, once hm_reader_text has read the header. */
 enum hm_err hm_reader_begin_blocks(struct hm_reader *r, enum hm_encoding encoding,
                                    struct hm_diag *d);
+
+/* Read up to max points to the rows behind the *n that are there, as far as lines come that hold
+ * nothing but their numbers, between blanks; on the reader's threads, and with a single one none.
+ */
+enum hm_err hm_reader_plain_points(struct hm_reader *r, double *rows, size_t max, size_t *n,
+                                   struct hm_diag *d);
+void hm_reader_free_plain(struct hm_reader *r);
 
 /* Append to the line being read. */
 enum hm_err hm_reader_add_vertex(struct hm_reader *r, const double xyz[3], struct hm_diag *d);

@@ -237,10 +237,13 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
                                struct hm_diag *d)
 {
     const struct table *t = r->state;
+    enum hm_err err = t->plain ? hm_reader_plain_points(r, rows, max, n, d) : HM_OK;
+    if (err)
+        return err;
     for (; *n < max; ++*n) {
         const char *s, *end;
         double *v = rows + *n * r->nfields;
-        enum hm_err err = hm_input_line(&r->in, &s, &end, d);
+        err = hm_input_line(&r->in, &s, &end, d);
         if (!err && t->plain && hm_row_parse(s, end, v, t->columns) && hm_reader_good_place(v))
             continue;
         if (!err)

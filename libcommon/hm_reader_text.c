@@ -50,10 +50,13 @@ static enum hm_err read_points(struct hm_reader *r, double *rows, size_t max, si
                                struct hm_diag *d)
 {
     size_t k = r->nfields;
+    enum hm_err err = hm_reader_plain_points(r, rows, max, n, d);
+    if (err)
+        return err;
     while (*n < max) {
         const char *s, *end;
         double *v = rows + *n * k;
-        enum hm_err err = hm_input_line(&r->in, &s, &end, d);
+        err = hm_input_line(&r->in, &s, &end, d);
         if (!err && hm_row_parse(s, end, v, k) && hm_reader_good_place(v)) {
             ++*n;
             continue;

@@ -54,6 +54,27 @@ for f in all.hm all.bin; do
     report $? "$f cut at 20 places is refused here and downstream$bad"
 done
 
+# --- text by several threads: the same points, and mistakes at the same lines ---
+awk 'BEGIN { for (i = 1; i <= 60000; i++) { printf "%s %s %s%s\n", i / 8, -i, i % 7 ? i / 1000 : "nan", i % 5 ? "" : "\r"
+    if (i % 9001 == 0) print "# " i; if (i % 17011 == 0) print "" } printf "1 2 3" }' >many.xyz
+{ printf '#hm 1 points text\n#fields x y z\n#data\n'; awk '{ print } END { print "#end" }' many.xyz; cat points.hm; } >many.hm
+for f in many.xyz many.hm; do
+    hmconv -j 1 $f >want
+    for j in 2 7; do
+        hmconv -j $j $f >got
+        same "$f: $j threads" want got
+        hmconv -j $j <$f | cmp -s - want
+        report $? "$f: $j threads, through a pipe"
+    done
+done
+true_that 'all of them' "$(grep -c '^[^#]' want) == 60003"
+for line in 1 16384 16385 40000 60010; do
+    sed "${line}s/.*/1 2 3 word/" many.xyz >word.xyz
+    for j in 1 2; do
+        must_fail "line $line, $j threads" 2 "word.xyz:$line: " hmconv -o out -j $j word.xyz
+    done
+done
+
 # --- files ---
 must_fail 'a full disk' 2 'cannot write: No space' sh -c 'hmconv points.hm >/dev/full'
 must_fail 'a full disk, by name' 2 'cannot write: No space' hmconv -o /dev/full points.hm

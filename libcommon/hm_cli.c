@@ -546,6 +546,15 @@ void hm_cli_set_format(struct hm_cli *cli, struct hm_format format)
     cli->decimals = format.decimals;
 }
 
+void hm_cli_set_single(struct hm_cli *cli)
+{
+    if (cli->decimals)
+        misuse(cli->program, "--precision is for text, --single is binary");
+    if (cli->keep)
+        misuse(cli->program, "--single would round what --keep copies");
+    cli->binary = cli->single = true;
+}
+
 const char *hm_cli_output(const struct hm_cli *cli)
 {
     return cli->output;

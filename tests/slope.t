@@ -80,6 +80,15 @@ breaklines -s 5 one.hm >a.hm 2>/dev/null
 breaklines -s 5 binary.hm >b.hm 2>/dev/null
 same "text and binary" a.hm b.hm
 
+slope --single rough.hm | hmconv >single.hm
+true_that "single precision, as good as it is" "$(paste single.hm one.hm | awk '!/^#/ && $4 != "nan" { e = ($4 - $8) / $8; f = ($3 - $7) / 2
+    if (e < 0) e = -e; if (f < 0) f = -f; if (e > m) m = e; if (f > m) m = f; n++ } END { print (n > 80000 ? m : 9) }') < 6e-8"
+ok "half as long" sh -c 'slope --single rough.hm >single.hm && slope -b rough.hm >double.hm &&
+    [ $(wc -c <double.hm) -gt $(($(wc -c <single.hm) * 19 / 10)) ]'
+ok "which is history" sh -c 'slope --single rough.hm | hmconv | grep -q "^#prog slope .* --single$"'
+must_fail "single precision is binary" 2 'single is binary' slope --single -p 3 rough.hm
+must_fail "and would round a copy" 2 'single would round' slope --single -K rough.hm
+
 # a true filter: rows come out while the input is still open
 mkfifo pipe
 slope <pipe >flow.hm &

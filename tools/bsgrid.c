@@ -48,6 +48,8 @@ static const struct hm_option options[] = {
      .help = "add the band count: points in the node's cell"},
     {0, "density", NULL, HM_OPT_FLAG, &cmd.density,
      .help = "add the band density: points a square metre in the 3 x 3 cells around"},
+    {0, "single", NULL, HM_OPT_FLAG, &cmd.single,
+     .help = "write a binary grid of single precision, half as long"},
     {0}};
 
 static const struct hm_program program = {
@@ -104,6 +106,8 @@ static struct survey start_survey(struct hm_cli *cli)
         hm_cli_die(cli, "-k: the degree is 1, 2 or 3");
     if (cmd.over < 1 || cmd.over > 100)
         hm_cli_die(cli, "-O: from 1 to 100 nodes for one");
+    if (cmd.single)
+        hm_cli_set_single(cli);
     if (cmd.clean)
         hm_cli_check(cli, hm_output_check(cmd.clean, &d), &d);
     cmd.blunders_given = cmd.blunders_given || cmd.clean;

@@ -12,7 +12,7 @@ enum { BSPLINE = HM_SLOPE_STEEPEST + 1 };
 static struct {
     int method;
     int unit;
-    bool aspect, curvature;
+    bool aspect, curvature, single;
 } cmd;
 
 static const struct hm_option options[] = {
@@ -25,6 +25,8 @@ static const struct hm_option options[] = {
      .help = "add where the ground falls to, in degrees clockwise from north"},
     {'c', "curvature", NULL, HM_OPT_FLAG, &cmd.curvature,
      .help = "add the curvature along the fall and that of the contour, 1/m"},
+    {0, "single", NULL, HM_OPT_FLAG, &cmd.single,
+     .help = "write a binary grid of single precision, half as long"},
     {0}};
 
 static const struct hm_program program = {
@@ -226,6 +228,8 @@ int main(int argc, char **argv)
     struct hm_cli *cli = hm_cli_start(&program, argc, argv);
     struct hm_header h;
     size_t done = 0, sloped = 0;
+    if (cmd.single)
+        hm_cli_set_single(cli);
     while (hm_cli_next(cli, &h)) {
         if (hm_header_field(&h, "slope") >= 0) {
             sloped++;

@@ -16,7 +16,7 @@ struct command {
     const char *region, *classes, *mask, *clean;
     int method, degree, iterations, fit, over, returns;
     double gap, tolerance, blunders;
-    bool gap_given, blunders_given, derivatives, count, density;
+    bool gap_given, blunders_given, derivatives, count, density, single;
 };
 extern struct command cmd;
 

@@ -169,9 +169,11 @@ void write_clean(struct hm_cli *cli, const struct survey *s)
     struct hm_diag d = {0};
     struct hm_header h;
     struct hm_writer *w;
+    struct hm_format format = hm_cli_format(cli);
+    format.single = false; /* that is for grids */
     hm_cli_check(cli, hm_header_init(&h, HM_POINTS, &d), &d);
     hm_cli_make_header(cli, &h);
-    hm_cli_check(cli, hm_writer_open(&w, cmd.clean, hm_cli_format(cli), &d), &d);
+    hm_cli_check(cli, hm_writer_open(&w, cmd.clean, format, &d), &d);
     hm_cli_check(cli, hm_writer_begin(w, &h, &d), &d);
     for (size_t k = 0; k < s->n; k++)
         if (is_within(s, s->xyz + 3 * k))

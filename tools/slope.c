@@ -37,18 +37,32 @@ static const struct hm_program program = {
     .needs = HM_GRID,
 };
 
-/* A grid on its way through. Some rows are held at a time, with one more on either side. */
+/* A grid on its way through, some rows at a time. While these are computed, those before are
+ * written and the next are read:
+ *
+ *     written | computed  |  read
+ *     ────────┼───────────┼──────────
+ *         from-slab     from     from + 1 + slab
+ *
+ * Rows in are kept in a ring, row j in place j mod room, with the one before and the one behind
+ * those that are computed; rows out likewise.
+ */
 struct stream {
+    struct hm_cli *cli;
     struct hm_lattice l;
-    size_t nx, bands;       /* bands that come in */
-    size_t z, gx, gy;       /* the bands of the height and, for bspline, of its derivatives */
-    size_t added;           /* bands that go out in addition */
-    size_t room;            /* rows that the buffers hold */
-    int64_t base, held;     /* the first row held, and how many */
-    int64_t from;           /* the first row to compute next */
-    double *in, *height;    /* room rows */
-    double *gradient, *out; /* room rows */
-    struct hm_slope_second *second;
+    size_t nx, bands;    /* bands that come in */
+    size_t z, gx, gy;    /* the bands of the height and, for bspline, of its derivatives */
+    size_t added;        /* bands that go out in addition */
+    int64_t slab, room;  /* rows at a time, rows in that are kept */
+    int64_t read;        /* rows that have come in */
+    int64_t from, to;    /* rows to compute */
+    int64_t written;     /* rows that have gone out */
+    double *in, *height; /* room rows; height is `in` when there is nothing else in it */
+    double *gradient;    /* slab rows */
+    double *out;         /* 2 slab rows */
+    struct hm_slope_second *second; /* slab rows */
+    enum hm_err err;                /* of reading and writing */
+    struct hm_diag d;
 };
 
 static size_t band_of(struct hm_cli *cli, const struct hm_header *h, const char *name)
@@ -71,27 +85,31 @@ static void *need(struct hm_cli *cli, size_t count, size_t size)
 static struct stream open_stream(struct hm_cli *cli, const struct hm_header *h)
 {
     enum { NODES = 1 << 16, MOST_ROWS = 64 };
-    struct stream s = {.l = h->lattice, .nx = (size_t)h->lattice.nx, .bands = h->nfields - 2};
+    struct stream s = {
+        .cli = cli, .l = h->lattice, .nx = (size_t)h->lattice.nx, .bands = h->nfields - 2};
     s.z = band_of(cli, h, "z");
     if (cmd.method == BSPLINE) {
         s.gx = band_of(cli, h, "dzdx");
         s.gy = band_of(cli, h, "dzdy");
     }
     s.added = 1 + (size_t)cmd.aspect + 2 * (size_t)cmd.curvature;
-    size_t rows = NODES / s.nx;
-    s.room = (rows < 1 ? 1 : rows > MOST_ROWS ? MOST_ROWS : rows) + 2;
-    s.in = need(cli, s.room * s.nx, s.bands * sizeof *s.in);
-    s.height = need(cli, s.room * s.nx, sizeof *s.height);
-    s.gradient = need(cli, s.room * s.nx, 2 * sizeof *s.gradient);
-    s.second = need(cli, cmd.curvature ? s.room * s.nx : 0, sizeof *s.second);
-    s.out = need(cli, s.room * s.nx, (s.bands + s.added) * sizeof *s.out);
+    s.slab = NODES / h->lattice.nx;
+    s.slab = s.slab < 1 ? 1 : s.slab > MOST_ROWS ? MOST_ROWS : s.slab;
+    s.room = 2 * s.slab + 2;
+    size_t room = (size_t)s.room * s.nx, slab = (size_t)s.slab * s.nx;
+    s.in = need(cli, room, s.bands * sizeof *s.in);
+    s.height = s.bands == 1 ? s.in : need(cli, room, sizeof *s.height);
+    s.gradient = need(cli, slab, 2 * sizeof *s.gradient);
+    s.second = need(cli, cmd.curvature ? slab : 0, sizeof *s.second);
+    s.out = need(cli, 2 * slab, (s.bands + s.added) * sizeof *s.out);
     return s;
 }
 
 static void close_stream(struct stream *s)
 {
+    if (s->height != s->in)
+        free(s->height);
     free(s->in);
-    free(s->height);
     free(s->gradient);
     free(s->second);
     free(s->out);
@@ -106,34 +124,46 @@ static void add_band(struct hm_cli *cli, struct hm_header *h, const char *name, 
     hm_cli_check(cli, hm_header_add_field(h, name, unit, &d), &d);
 }
 
-/* Read rows while there is room; true when the last has come. */
-static bool fill(struct hm_cli *cli, struct stream *s)
+static double *row_in(const struct stream *s, int64_t row)
 {
-    while (s->held < (int64_t)s->room) {
-        struct hm_diag d = {0};
-        double *row = s->in + (size_t)s->held * s->nx * s->bands;
-        enum hm_err err = hm_reader_row(hm_cli_reader(cli), row, &d);
-        if (err == HM_END)
-            return true;
-        hm_cli_check(cli, err, &d);
-        double *height = s->height + (size_t)s->held * s->nx;
-        for (size_t i = 0; i < s->nx; i++)
-            height[i] = row[i * s->bands + s->z];
-        s->held++;
-    }
-    return false;
+    return s->in + (size_t)(row % s->room) * s->nx * s->bands;
 }
 
-static const double *height_row(const struct stream *s, int64_t row)
+static double *row_out(const struct stream *s, int64_t row)
 {
-    bool known = row >= s->base && row < s->base + s->held;
-    return known ? s->height + (size_t)(row - s->base) * s->nx : NULL;
+    return s->out + (size_t)(row % (2 * s->slab)) * s->nx * (s->bands + s->added);
+}
+
+/* Heights of a row; NULL beyond the grid. */
+static double *height_row(const struct stream *s, int64_t row)
+{
+    return row >= 0 && row < s->l.ny ? s->height + (size_t)(row % s->room) * s->nx : NULL;
+}
+
+static enum hm_err read_row(struct stream *s)
+{
+    double *in = row_in(s, s->read), *height = height_row(s, s->read);
+    enum hm_err err = hm_reader_row(hm_cli_reader(s->cli), in, &s->d);
+    for (size_t i = 0; height != in && !err && i < s->nx; i++)
+        height[i] = in[i * s->bands + s->z];
+    s->read += !err;
+    return err;
+}
+
+/* Write what was computed before, and read as much as will be computed next. */
+static void move_rows(struct stream *s)
+{
+    int64_t enough = s->to + 1 + s->slab < s->l.ny ? s->to + 1 + s->slab : s->l.ny;
+    while (s->written < s->from && !s->err)
+        s->err = hm_writer_row(hm_cli_writer(s->cli), row_out(s, s->written++), &s->d);
+    while (s->read < enough && !s->err)
+        s->err = read_row(s);
 }
 
 static void take_gradient(const struct stream *s, int64_t row, double *gx, double *gy)
 {
     if (cmd.method == BSPLINE) {
-        const double *in = s->in + (size_t)(row - s->base) * s->nx * s->bands;
+        const double *in = row_in(s, row);
         for (size_t i = 0; i < s->nx; i++) {
             gx[i] = in[i * s->bands + s->gx];
             gy[i] = in[i * s->bands + s->gy];
@@ -150,53 +180,58 @@ static enum hm_slope_method second_method(void)
     return cmd.method == BSPLINE ? HM_SLOPE_OVER_DISTANCE : (enum hm_slope_method)cmd.method;
 }
 
-static void compute_row(void *arg, size_t k)
+static void compute_row(const struct stream *s, int64_t row)
 {
-    const struct stream *s = arg;
-    int64_t row = s->from + (int64_t)k;
-    double *gx = s->gradient + k * 2 * s->nx, *gy = gx + s->nx;
-    struct hm_slope_second *second = s->second + (cmd.curvature ? k * s->nx : 0);
+    size_t k = (size_t)(row - s->from), all = s->bands + s->added, nx = s->nx;
+    double *gx = s->gradient + k * 2 * nx, *gy = gx + nx;
+    struct hm_slope_second *second = s->second + (cmd.curvature ? k * nx : 0);
     take_gradient(s, row, gx, gy);
     if (cmd.curvature) {
         const double *const z[3] = {height_row(s, row - 1), height_row(s, row),
                                     height_row(s, row + 1)};
-        hm_slope_second(second_method(), z, s->nx, s->l.dx, s->l.dy, second);
+        hm_slope_second(second_method(), z, nx, s->l.dx, s->l.dy, second);
     }
-    const double *in = s->in + (size_t)(row - s->base) * s->nx * s->bands;
-    double *out = s->out + k * s->nx * (s->bands + s->added);
-    for (size_t i = 0; i < s->nx; i++) {
+    const double *in = row_in(s, row);
+    double *out = row_out(s, row), *to = out;
+    for (size_t i = 0; i < nx; i++, to += s->added)
         for (size_t b = 0; b < s->bands; b++)
-            *out++ = *in++;
-        *out++ = hm_slope_of(gx[i], gy[i], (enum hm_slope_unit)cmd.unit);
-        if (cmd.aspect)
-            *out++ = hm_slope_aspect(gx[i], gy[i]);
-        if (cmd.curvature) {
-            *out++ = hm_slope_profile_curvature(gx[i], gy[i], &second[i]);
-            *out++ = hm_slope_plan_curvature(gx[i], gy[i], &second[i]);
-        }
+            *to++ = *in++;
+    to = out + s->bands;
+    for (size_t i = 0; i < nx; i++)
+        to[i * all] = hm_slope_of(gx[i], gy[i], (enum hm_slope_unit)cmd.unit);
+    to++;
+    for (size_t i = 0; cmd.aspect && i < nx; i++)
+        to[i * all] = hm_slope_aspect(gx[i], gy[i]);
+    to += cmd.aspect;
+    for (size_t i = 0; cmd.curvature && i < nx; i++) {
+        to[i * all] = hm_slope_profile_curvature(gx[i], gy[i], &second[i]);
+        to[i * all + 1] = hm_slope_plan_curvature(gx[i], gy[i], &second[i]);
     }
 }
 
-/* Compute and write the rows whose neighbours are held; keep the last two for what comes. */
-static void put_rows(struct hm_cli *cli, struct stream *s, bool last)
+/* Chunk 0 moves rows, the others compute one each. */
+static void run_chunk(void *arg, size_t chunk)
 {
-    int64_t end = s->base + s->held - !last;
-    size_t rows = end > s->from ? (size_t)(end - s->from) : 0;
-    hm_thread_for(hm_cli_threads(cli), rows, compute_row, s);
-    for (size_t k = 0; k < rows; k++) {
-        struct hm_diag d = {0};
-        const double *row = s->out + k * s->nx * (s->bands + s->added);
-        hm_cli_check(cli, hm_writer_row(hm_cli_writer(cli), row, &d), &d);
+    struct stream *s = arg;
+    if (chunk == 0)
+        move_rows(s);
+    else
+        compute_row(s, s->from + (int64_t)chunk - 1);
+}
+
+/* The first rows are read, then all are computed, then the last are written. */
+static void pass_rows(struct stream *s)
+{
+    struct hm_team *team = hm_team_new(hm_cli_threads(s->cli));
+    while (s->written < s->l.ny) {
+        hm_team_for(team, 1 + (size_t)(s->to - s->from), run_chunk, s);
+        hm_cli_check(s->cli, s->err, &s->d);
+        hm_cli_progress(s->cli, "slope", (double)s->read / (double)s->l.ny);
+        s->from = s->to;
+        s->to = s->read < s->l.ny ? s->read - 1 : s->l.ny;
+        s->to = s->to > s->from + s->slab ? s->from + s->slab : s->to;
     }
-    s->from += (int64_t)rows;
-    int64_t drop = s->from - 1 - s->base;
-    if (drop > 0) {
-        size_t keep = (size_t)(s->held - drop) * s->nx, gone = (size_t)drop * s->nx;
-        memmove(s->height, s->height + gone, keep * sizeof *s->height);
-        memmove(s->in, s->in + gone * s->bands, keep * s->bands * sizeof *s->in);
-        s->base += drop;
-        s->held -= drop;
-    }
+    hm_team_free(team);
 }
 
 static void do_grid(struct hm_cli *cli, struct hm_header *h)
@@ -213,12 +248,8 @@ static void do_grid(struct hm_cli *cli, struct hm_header *h)
     }
     hm_cli_make_header(cli, h);
     hm_cli_check(cli, hm_writer_begin(w, h, &d), &d);
-    bool last;
-    do {
-        last = fill(cli, &s);
-        put_rows(cli, &s, last);
-        hm_cli_progress(cli, "slope", (double)s.from / (double)s.l.ny);
-    } while (!last);
+    pass_rows(&s);
+    hm_cli_check(cli, hm_reader_row(hm_cli_reader(cli), s.in, &d), &d); /* there is an end */
     hm_cli_check(cli, hm_writer_end(w, &d), &d);
     close_stream(&s);
 }

@@ -13,7 +13,7 @@ static const struct {
     const char *text;
 } angle_class[] = {
     {30, "smallest angle over 30°"}, {20, "20° to 30°"}, {10, "10° to 20°"}, {-1, "under 10°"}};
-enum { ANGLES = sizeof angle_class / sizeof *angle_class, SHADES = 64 };
+enum { ANGLES = sizeof angle_class / sizeof *angle_class, SHADES = 48, LIGHTS = 24 };
 
 void classes_free(struct classes *c)
 {
@@ -29,21 +29,67 @@ static enum hm_err make_list(struct classes *c, size_t n, struct hm_diag *d)
     return c->list ? HM_OK : hm_fail_memory(d);
 }
 
-/* Shades of the ramp, which no legend names one by one; elements without height have none. */
+/* How the plane through three corners of an element rises to the east and to the north; that of a
+ * quadrilateral through its diagonals. */
+static void slope_of(const struct hm_mesh *m, const struct hm_elem *e, double slope[2])
+{
+    const struct hm_node *n[4];
+    for (int k = 0; k < hm_elem_corners(e); k++)
+        n[k] = &m->node[e->node[k]];
+    const struct hm_node *a = n[0], *b = n[hm_elem_corners(e) == 4 ? 2 : 1];
+    const struct hm_node *c = n[hm_elem_corners(e) == 4 ? 1 : 0], *o = n[hm_elem_corners(e) - 1];
+    const double ux = b->x - a->x, uy = b->y - a->y, uz = b->z - a->z;
+    const double vx = o->x - c->x, vy = o->y - c->y, vz = o->z - c->z;
+    const double area = ux * vy - uy * vx;
+    slope[0] = area != 0 ? (uz * vy - vz * uy) / area : 0;
+    slope[1] = area != 0 ? (vz * ux - uz * vx) / area : 0;
+}
+
+static double stretch_of(const struct hm_mesh *m)
+{
+    enum { MOST = 20000 };
+    double steep[MOST];
+    size_t n = 0;
+    for (size_t k = 0; k < m->nelems; k += m->nelems / MOST + 1) {
+        double s[2];
+        slope_of(m, &m->elem[k], s);
+        if (isfinite(s[0]) && isfinite(s[1]))
+            steep[n++] = sqrt(s[0] * s[0] + s[1] * s[1]);
+    }
+    return relief_stretch(steep, n);
+}
+
+static double mean_height(const struct hm_mesh *m, const struct hm_elem *e)
+{
+    double z = 0;
+    for (int k = 0; k < hm_elem_corners(e); k++)
+        z += m->node[e->node[k]].z / hm_elem_corners(e);
+    return z;
+}
+
+/* The shades of the ramp, each in several lights, which no legend names one by one; elements
+ * without height have none. */
 static enum hm_err by_height(struct classes *c, const struct hm_mesh *m,
                              const struct scale *heights, struct hm_diag *d)
 {
-    if (make_list(c, SHADES, d))
+    const double brightest = relief_light(1, -1), stretch = stretch_of(m);
+    if (make_list(c, SHADES * LIGHTS, d))
         return HM_ENOMEM;
-    for (int k = 0; k < SHADES; k++)
-        c->list[k].colour = ramp_colour(RAMP_HEIGHT, k / (SHADES - 1.0));
+    for (int k = 0; k < SHADES * LIGHTS; k++) {
+        struct rgb colour = ramp_colour(RAMP_HEIGHT, k / LIGHTS / (SHADES - 1.0));
+        double light = k % LIGHTS / (LIGHTS - 1.0) * brightest;
+        c->list[k].colour = (struct rgb){fmin(1, colour.r * light), fmin(1, colour.g * light),
+                                         fmin(1, colour.b * light)};
+    }
     for (size_t k = 0; k < m->nelems; k++) {
-        const struct hm_elem *e = &m->elem[k];
-        double z = 0;
-        for (int i = 0; i < hm_elem_corners(e); i++)
-            z += m->node[e->node[i]].z / hm_elem_corners(e);
-        double part = fmin(1, fmax(0, range_part(heights->range, z)));
-        c->of[k] = isnan(z) ? -1 : (int32_t)(part * (SHADES - 1));
+        double z = mean_height(m, &m->elem[k]), s[2];
+        double shade = fmin(1, fmax(0, range_part(heights->range, z)));
+        slope_of(m, &m->elem[k], s);
+        double light = relief_light(s[0] * stretch, s[1] * stretch) / brightest;
+        c->of[k] = -1;
+        if (!isnan(z) && !isnan(light))
+            c->of[k] =
+                (int32_t)(round(shade * (SHADES - 1)) * LIGHTS + round(light * (LIGHTS - 1)));
     }
     return HM_OK;
 }

@@ -43,6 +43,15 @@ extern const struct rgb INK, PAPER, GREY, BREAKLINE, ROUGH, STRING, GOOD, FAIR, 
 /* The colour that one of that opacity takes over another. */
 struct rgb blend(struct rgb over, double alpha, struct rgb under);
 
+/* --- relief.c --- */
+
+/* How much heights are to be stretched for a relief that can be seen well, by the slopes (rise over
+ * run) of a sample of places, which is sorted. */
+double relief_stretch(double *steep, size_t n);
+/* The light on ground that rises so much (stretched) to the east and to the north: 1 on level
+ * ground. */
+double relief_light(double east, double north);
+
 /* --- view.c --- */
 
 /* Window in the data's coordinates, and where it lies on the page. */

@@ -90,14 +90,7 @@ static void gradient(const struct field *f, int64_t x, int64_t y, int64_t reach,
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* How much heights are stretched: steep places, but for the steepest fiftieth, shall look 40°. */
-static double exaggeration(const struct field *f, int64_t reach, double step)
+static double stretch_of(const struct field *f, int64_t reach, double step)
 {
     enum { MOST = 20000 };
     double steep[MOST] = {0};
@@ -109,17 +102,7 @@ static double exaggeration(const struct field *f, int64_t reach, double step)
         if (!isnan(f->z[k]))
             steep[n++] = sqrt(s[0] * s[0] + s[1] * s[1]) / step;
     }
-    qsort(steep, n, sizeof *steep, by_value);
-    double typical = n ? steep[n - 1 - n / 50] : 0;
-    return typical > 0 ? fmin(8, fmax(1, 0.84 / typical)) : 1;
-}
-
-/* Lambert's law with the light from north-west, 45° high: 1 on level ground. */
-static double shade(const double slope[2], double stretch)
-{
-    double a = -slope[0] * stretch, b = -slope[1] * stretch; /* page y runs down */
-    double light = (-a - b) / sqrt(2) + 1;
-    return fmax(0, light / sqrt(a * a + b * b + 1));
+    return relief_stretch(steep, n);
 }
 
 /* v in steps of 1 / levels */
@@ -134,14 +117,15 @@ static double step_to(double v, double levels)
 static void paint_relief(struct image *image, struct image *lights, const struct field *f,
                          int64_t reach, double step, struct range range)
 {
-    const double stretch = exaggeration(f, reach, step) / step;
+    const double stretch = stretch_of(f, reach, step) / step;
     for (int64_t y = 0; y < f->height; y++)
         for (int64_t x = 0; x < f->width; x++) {
             double z = f->z[y * f->width + x], s[2];
             if (isnan(z))
                 continue;
             gradient(f, x, y, reach, s);
-            double light = step_to(0.35 + 0.65 * shade(s, stretch), 32);
+            const double east = s[0] * stretch, north = -s[1] * stretch; /* page y runs down */
+            double light = step_to(relief_light(east, north), 32);
             struct rgb c = ramp_colour(RAMP_HEIGHT, step_to(range_part(range, z), 48));
             image_put(image, x, y, (struct rgb){c.r * light, c.g * light, c.b * light}, 1);
             lights->pixel[y * lights->stride + x] = 0; /* the grid on top counts */

@@ -47,16 +47,42 @@ static void fill_path(struct page *page, struct rgb colour, double alpha)
     }
 }
 
-/* Returns how many elements of the class lie in the window. */
-static int64_t fill_class(struct page *page, const struct hm_mesh *m, const struct classes *classes,
-                          int32_t wanted, double alpha)
+/* The elements of each class, as they come: those of class k are list[start[k]] to before
+ * list[start[k + 1]]. */
+struct groups {
+    int32_t *list;
+    size_t *start;
+};
+
+static enum hm_err group(struct groups *g, const struct classes *classes, size_t nelems,
+                         struct hm_diag *d)
 {
-    const struct rgb colour = classes->list[wanted].colour;
+    *g = (struct groups){hm_alloc(nelems, sizeof *g->list),
+                         hm_alloc0(classes->n + 2, sizeof *g->start)};
+    if (!g->list || !g->start)
+        return hm_fail_memory(d);
+    size_t *end = g->start + 1; /* while they are filled: where class k goes on */
+    for (size_t k = 0; k < nelems; k++)
+        if (classes->of[k] >= 0)
+            end[classes->of[k] + 1]++;
+    for (size_t k = 1; k <= classes->n; k++)
+        end[k] += end[k - 1];
+    for (size_t k = 0; k < nelems; k++)
+        if (classes->of[k] >= 0)
+            g->list[end[classes->of[k]]++] = (int32_t)k;
+    return HM_OK;
+}
+
+/* Returns how many elements of a class lie in the window. */
+static int64_t fill_class(struct page *page, const struct hm_mesh *m, const int32_t *list, size_t n,
+                          struct rgb colour, double alpha)
+{
     int64_t count = 0;
-    for (size_t k = 0; k < m->nelems; k++) {
-        if (classes->of[k] != wanted || !view_meets(&page->view, m, &m->elem[k]))
+    for (size_t k = 0; k < n; k++) {
+        const struct hm_elem *e = &m->elem[list[k]];
+        if (!view_meets(&page->view, m, e))
             continue;
-        element_path(page, m, &m->elem[k]);
+        element_path(page, m, e);
         if (++count % PIECE == 0)
             fill_path(page, colour, alpha);
     }
@@ -64,39 +90,47 @@ static int64_t fill_class(struct page *page, const struct hm_mesh *m, const stru
     return count;
 }
 
-/* The mean colour of the ground under the elements of a class, by their area in the window. */
+/* The mean colour of the ground under some elements, by their area in the window. */
 static struct rgb ground_under(const struct page *page, const struct hm_mesh *m,
-                               const struct classes *classes, int32_t wanted)
+                               const int32_t *list, size_t n)
 {
     struct rgb mean = PAPER;
     double whole = 0;
-    for (size_t k = 0; k < m->nelems; k++) {
-        const struct hm_elem *e = &m->elem[k];
+    for (size_t k = 0; k < n; k++) {
+        const struct hm_elem *e = &m->elem[list[k]];
         const struct hm_node *a = &m->node[e->node[0]], *b = &m->node[e->node[2]];
         double area = fabs(hm_elem_area(m, e)), x = (a->x + b->x) / 2, y = (a->y + b->y) / 2;
-        if (classes->of[k] == wanted && area > 0 && view_holds(&page->view, x, y))
+        if (area > 0 && view_holds(&page->view, x, y))
             mean = blend(page_ground(page, x, y), area / (whole += area), mean);
     }
     return mean;
 }
 
 /* Paint every class in turn, and enter it in the legend as it looks over the ground. */
-static void fill_elements(struct page *page, const struct hm_mesh *m, const struct classes *classes,
-                          enum mesh_fill fill)
+static enum hm_err fill_elements(struct page *page, const struct hm_mesh *m,
+                                 const struct classes *classes, enum mesh_fill fill,
+                                 struct hm_diag *d)
 {
+    struct groups g;
+    enum hm_err err = group(&g, classes, m->nelems, d);
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_NONE);
-    for (int32_t k = 0; k < (int32_t)classes->n; k++) {
+    for (size_t k = 0; k < classes->n && !err; k++) {
         const struct class *class = &classes->list[k];
         const double alpha = class_alpha(page, class, fill);
-        int64_t count = fill_class(page, m, classes, k, alpha);
+        const int32_t *list = &g.list[g.start[k]];
+        const size_t n = g.start[k + 1] - g.start[k];
+        int64_t count = fill_class(page, m, list, n, class->colour, alpha);
         if (!count || !*class->text)
             continue;
         struct rgb colour = class->colour;
         if (alpha < 1)
-            colour = blend(colour, alpha, ground_under(page, m, classes, k));
+            colour = blend(colour, alpha, ground_under(page, m, list, n));
         legend_add(page, MARK_FILL, colour, count, "%s", class->text);
     }
     cairo_set_antialias(page->cr, CAIRO_ANTIALIAS_DEFAULT);
+    free(g.list);
+    free(g.start);
+    return err;
 }
 
 /* --- edges --- */
@@ -181,14 +215,14 @@ enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill
 {
     struct classes classes = {0};
     enum hm_err err = fill == FILL_WIRE ? HM_OK : classify(&classes, m, fill, heights, d);
-    if (err)
-        return err;
-    fill_elements(page, m, &classes, fill);
+    if (!err && classes.n)
+        err = fill_elements(page, m, &classes, fill, d);
     if (fill != FILL_MATERIAL)
         legend_add(page, MARK_LINE, INK, (int64_t)view_elements(&page->view, m), "Elements");
     if (fill == FILL_Z)
         legend_bar(page, RAMP_HEIGHT, heights);
-    err = draw_edges(page, m, fill == FILL_MATERIAL ? classes.of : NULL, d);
+    if (!err)
+        err = draw_edges(page, m, fill == FILL_MATERIAL ? classes.of : NULL, d);
     classes_free(&classes);
     page->has_ground |= fill != FILL_WIRE;
     return err;

@@ -222,6 +222,31 @@ if python3 -c 'import zlib' 2>/dev/null; then
     set -- $(pixel fine.png 50,50 51,50 50,51 51,51) $(pixel coarse.png 200,205)
     true_that "wires too fine are left out" "$1 > 230 && $4 > 230 && $7 > 230 && ${10} > 230"
     true_that "and drawn where there is room" "${13} < 230"
+
+    # colours that eyes without one kind of cones tell apart, too
+    awk 'BEGIN { print "#hm 1 mesh text\n#data"
+        for (i = 0; i <= 8; i++) print "v", i, 0, 0, 0, 0 "\nv", i, 1, 0, 0, 0
+        for (i = 0; i < 8; i++) print "q", 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1, i
+        print "#end" }' >materials.hm
+    awk 'BEGIN { print "#hm 1 mesh text\n#data"
+        for (k = split("50 25 15 5", a); k; k--) { t = sin(a[k] / 57.29578) / cos(a[k] / 57.29578)
+            print "v", 3 * k, 0, 0, 0, 0 "\nv", 3 * k + 1, 0, 0, 0, 0 "\nv", 3 * k + 1, t, 0, 0, 0 }
+        for (k = 0; k < 4; k++) print "t", 3 * k, 3 * k + 1, 3 * k + 2, 0
+        print "#end" }' >angles.hm
+    awk 'BEGIN { print "#hm 1 grid text\n#size 7 2\n#origin 0 0\n#step 1 1\n#fields x y z slope"
+        print "#units m m m degree\n#data"
+        for (y = 0; y < 2; y++) for (x = 0; x < 7; x++) print x, y, 0, 1 + x * (x + 1)
+        print "#end" }' >slopes.hm
+    hmdraw -P -t svg materials.hm >materials.svg
+    hmdraw -P -f quality -t svg angles.hm >angles.svg
+    hmdraw -t svg -B slope slopes.hm >slopes.svg
+    for picture in materials:8:16 angles:4:16 slopes:7:10; do
+        IFS=: read -r name count least <<END
+$picture
+END
+        set -- $(python3 "$TESTS/colours.py" $name.svg)
+        true_that "$name: colours apart" "$1 == $count && $2 > $least && $3 > $least && $4 > $least && $5 > $least"
+    done
 else
     skip "no python3 to look at pixels"
 fi

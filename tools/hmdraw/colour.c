@@ -1,11 +1,11 @@
 /* Colours that stay apart for colour-blind eyes: a height ramp from blue to brown through light
- * tones, on which lines can be seen; classes from the palette of Okabe and Ito, lightened for areas
- * that carry wires. */
+ * tones, and one of values from light yellow to dark blue, on both of which red lines can be seen;
+ * classes from the palette of Okabe and Ito, lightened for areas that carry wires. */
 #include "draw.h"
 
 #include <math.h>
 
-const struct rgb INK = {0.13, 0.13, 0.15}, PAPER = {1, 1, 1}, GREY = {0.62, 0.62, 0.62};
+const struct rgb INK = {0.13, 0.13, 0.15}, PAPER = {1, 1, 1}, GREY = {0.76, 0.76, 0.76};
 const struct rgb BREAKLINE = {0.80, 0.06, 0.10}, ROUGH = {0.05, 0.10, 0.45};
 const struct rgb STRING = {0.00, 0.45, 0.35};
 const struct rgb GOOD = {0.00, 0.62, 0.45}, FAIR = {0.94, 0.84, 0.20},
@@ -21,13 +21,13 @@ static const struct rgb stops[][STOPS] = {
                      {0.95, 0.87, 0.66},
                      {0.85, 0.68, 0.44},
                      {0.62, 0.42, 0.27}},
-    [RAMP_VALUE] = {{1.00, 1.00, 0.92},
-                    {1.00, 0.92, 0.68},
-                    {0.99, 0.78, 0.42},
-                    {0.96, 0.57, 0.25},
-                    {0.87, 0.33, 0.20},
-                    {0.65, 0.12, 0.28},
-                    {0.36, 0.03, 0.32}},
+    [RAMP_VALUE] = {{1.00, 1.00, 0.88},
+                    {0.83, 0.91, 0.60},
+                    {0.59, 0.81, 0.58},
+                    {0.32, 0.67, 0.62},
+                    {0.19, 0.50, 0.65},
+                    {0.15, 0.31, 0.58},
+                    {0.11, 0.12, 0.36}},
 };
 
 /* In halves, since heights of -1e308 and 1e308 are further apart than a double can say. */
@@ -56,9 +56,9 @@ struct rgb ramp_colour(enum ramp ramp, double t)
 struct rgb material_colour(int32_t material)
 {
     static const struct rgb none = {0.95, 0.95, 0.93};
-    static const struct rgb palette[] = {{1.00, 0.78, 0.40}, {0.91, 0.66, 0.84}, {0.53, 0.83, 0.70},
-                                         {0.62, 0.80, 0.95}, {0.96, 0.92, 0.50}, {0.55, 0.62, 0.90},
-                                         {0.95, 0.62, 0.50}};
+    static const struct rgb palette[] = {{1.00, 0.79, 0.36}, {0.78, 0.56, 0.78}, {0.60, 0.96, 0.67},
+                                         {0.50, 0.56, 0.95}, {0.74, 0.70, 0.66}, {0.72, 0.85, 0.98},
+                                         {0.86, 0.50, 0.39}};
     enum { COLOURS = sizeof palette / sizeof *palette };
     return material > 0 ? palette[(material - 1) % COLOURS] : none;
 }

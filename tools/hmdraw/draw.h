@@ -25,7 +25,9 @@ enum { LEGEND_ITEMS = 24, LEGEND_TEXT = 40 };
 struct scale {
     struct range range;
     char title[LEGEND_TEXT]; /* "Height (m)" */
+    const double *limits; /* SLOPE_LIMITS, ascending, between classes; NULL: colours go smoothly */
 };
+enum { SLOPE_LIMITS = 6 };
 
 /* --- colour.c --- */
 
@@ -93,14 +95,14 @@ enum hm_err sample_mesh(struct sampling *s, const struct view *v, const struct h
 /* The range of the values, without blunders; frees them. */
 struct range sampling_range(struct sampling *s);
 
-/* Title of a scale from the name of a column and its unit. */
+/* Title of a scale from the name of a column and its unit; limits of classes for slopes. */
 void scale_name(struct scale *scale, const struct hm_header *h, size_t column, const char *name);
 
 /* --- page.c --- */
 
 enum format { FORMAT_PNG, FORMAT_SVG, FORMAT_PDF };
 
-enum legend_mark { MARK_LINE, MARK_DASHES, MARK_DOT, MARK_FILL, MARK_BAR };
+enum legend_mark { MARK_NONE, MARK_LINE, MARK_DASHES, MARK_DOT, MARK_FILL, MARK_BAR };
 
 struct legend_item {
     enum legend_mark mark;

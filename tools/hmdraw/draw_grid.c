@@ -1,4 +1,5 @@
-/* Grids: heights as a shaded relief in a colour ramp, other bands in colour alone. */
+/* Grids: heights as a shaded relief in a colour ramp, slopes in classes, other bands in colour
+ * alone. */
 #include "draw.h"
 
 #include <math.h>
@@ -133,13 +134,41 @@ static void paint_relief(struct image *image, struct image *lights, const struct
         }
 }
 
-static void paint_values(struct image *image, const struct field *f, struct range range)
+/* The colour of a value that is no height: of its class, where the scale has classes. */
+static struct rgb value_colour(const struct scale *scale, double value)
+{
+    if (!scale->limits)
+        return ramp_colour(RAMP_VALUE, range_part(scale->range, value));
+    int class = 0;
+    while (class < SLOPE_LIMITS && value >= scale->limits[class])
+        class ++;
+    return ramp_colour(RAMP_VALUE, (double)class / SLOPE_LIMITS);
+}
+
+static void enter_values(struct page *page, enum ramp ramp, const struct scale *scale)
+{
+    if (!scale->limits) {
+        legend_bar(page, ramp, scale);
+        return;
+    }
+    legend_add(page, MARK_NONE, INK, -1, "%s", scale->title);
+    for (int k = SLOPE_LIMITS; k >= 0; k--) {
+        const struct rgb colour = ramp_colour(RAMP_VALUE, (double)k / SLOPE_LIMITS);
+        const double *limit = scale->limits;
+        if (k == SLOPE_LIMITS)
+            legend_add(page, MARK_FILL, colour, -1, "over %g", limit[k - 1]);
+        else
+            legend_add(page, MARK_FILL, colour, -1, "%g to %g", k ? limit[k - 1] : 0, limit[k]);
+    }
+}
+
+static void paint_values(struct image *image, const struct field *f, const struct scale *scale)
 {
     for (int64_t y = 0; y < f->height; y++)
         for (int64_t x = 0; x < f->width; x++) {
             double z = f->z[y * f->width + x];
             if (!isnan(z))
-                image_put(image, x, y, ramp_colour(RAMP_VALUE, range_part(range, z)), 1);
+                image_put(image, x, y, value_colour(scale, z), 1);
         }
 }
 
@@ -158,8 +187,8 @@ static enum hm_err shade_field(struct page *page, struct image *image, const str
 }
 
 /* The colours of the map, at every GROUND_CELL of it, for legends; without light and shade. */
-static enum hm_err keep_ground(struct page *page, const struct field *f, double zoom,
-                               enum ramp ramp, struct range range, struct hm_diag *d)
+static enum hm_err keep_ground(struct page *page, const struct field *f, double zoom, bool relief,
+                               const struct scale *scale, struct hm_diag *d)
 {
     const int64_t nx = (int64_t)page->view.width / GROUND_CELL + 1;
     const int64_t ny = (int64_t)page->view.height / GROUND_CELL + 1;
@@ -175,7 +204,8 @@ static enum hm_err keep_ground(struct page *page, const struct field *f, double 
         double y = ((double)(k / nx) + 0.5) * GROUND_CELL * zoom;
         double z = field_at(f, (int64_t)x, (int64_t)y);
         if (!isnan(z))
-            page->ground[k] = ramp_colour(ramp, range_part(range, z));
+            page->ground[k] = relief ? ramp_colour(RAMP_HEIGHT, range_part(scale->range, z))
+                                     : value_colour(scale, z);
     }
     return HM_OK;
 }
@@ -183,7 +213,6 @@ static enum hm_err keep_ground(struct page *page, const struct field *f, double 
 enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, bool relief,
                       const struct scale *scale, struct hm_diag *d)
 {
-    const enum ramp ramp = relief ? RAMP_HEIGHT : RAMP_VALUE;
     struct image image;
     enum hm_err err = image_open(&image, page, d);
     if (err)
@@ -193,11 +222,11 @@ enum hm_err draw_grid(struct page *page, const struct hm_grid *g, size_t band, b
     if (!err && relief)
         err = shade_field(page, &image, g, &f, scale->range, d);
     else if (!err)
-        paint_values(&image, &f, scale->range);
+        paint_values(&image, &f, scale);
     if (!err) {
-        legend_bar(page, ramp, scale);
+        enter_values(page, relief ? RAMP_HEIGHT : RAMP_VALUE, scale);
         page->has_ground = true;
-        err = keep_ground(page, &f, image.zoom, ramp, scale->range, d);
+        err = keep_ground(page, &f, image.zoom, relief, scale, d);
     }
     image_paint(&image, page);
     free(f.z);

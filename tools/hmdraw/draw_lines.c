@@ -77,12 +77,35 @@ static void draw_vertices(struct page *page, const struct hm_line *line, double 
     cairo_fill(page->cr);
 }
 
+/* Ticks need to be nearer than about 6 m, or they tell nothing. */
+static bool has_ticks(const struct page *page, const struct hm_line *line)
+{
+    char limit[8];
+    return page->view.scale > 0.1 * page->em &&
+           hm_attr_get(line->attrs, "limit", limit, sizeof limit);
+}
+
+/* A breakline and its ticks, of so much more width and length than usual. */
+static void draw_breakline(struct page *page, const struct hm_line *line, double more)
+{
+    const double em = page->em;
+    cairo_set_line_width(page->cr, (styles[HM_ROLE_BREAKLINE].width + more) * em);
+    trace(page, line);
+    cairo_stroke(page->cr);
+    cairo_set_line_width(page->cr, (0.06 + more) * em);
+    if (has_ticks(page, line))
+        draw_ticks(page, line, 0.6 * em, (0.36 + more / 2) * em);
+}
+
 static void draw_line(struct page *page, const struct hm_line *line, enum hm_role role)
 {
     const struct style *style = &styles[role];
     const double em = page->em;
-    char limit[8];
     set_colour(page, *style->colour, 1);
+    if (role == HM_ROLE_BREAKLINE) {
+        draw_breakline(page, line, 0);
+        return;
+    }
     cairo_set_line_width(page->cr, style->width * em);
     if (style->dashed)
         cairo_set_dash(page->cr, (double[]){0.6 * em, 0.35 * em}, 2, 0);
@@ -91,12 +114,16 @@ static void draw_line(struct page *page, const struct hm_line *line, enum hm_rol
     cairo_set_dash(page->cr, NULL, 0, 0);
     if (style->vertices)
         draw_vertices(page, line, 0.4 * em);
-    /* Ticks need to be nearer than about 6 m, or they tell nothing. */
-    if (role == HM_ROLE_BREAKLINE && page->view.scale > 0.1 * em &&
-        hm_attr_get(line->attrs, "limit", limit, sizeof limit)) {
-        cairo_set_line_width(page->cr, 0.05 * em);
-        draw_ticks(page, line, 0.6 * em, 0.3 * em);
-    }
+}
+
+/* Light bands under all breaklines, on which they can be seen against dark ground. */
+static void draw_casings(struct page *page, const struct hm_lines *l)
+{
+    set_colour(page, PAPER, 0.55);
+    for (size_t k = 0; k < l->n; k++)
+        if (l->line[k].n && is_visible(&page->view, &l->line[k]) &&
+            hm_role_of(l->line[k].attrs) == HM_ROLE_BREAKLINE)
+            draw_breakline(page, &l->line[k], 0.1);
 }
 
 enum hm_err draw_lines(struct page *page, const struct hm_lines *l, struct hm_diag *d)
@@ -104,6 +131,7 @@ enum hm_err draw_lines(struct page *page, const struct hm_lines *l, struct hm_di
     (void)d;
     cairo_save(page->cr);
     cairo_set_line_join(page->cr, CAIRO_LINE_JOIN_ROUND);
+    draw_casings(page, l);
     for (size_t k = 0; k < l->n; k++) {
         const struct hm_line *line = &l->line[k];
         if (!line->n || !is_visible(&page->view, line))

@@ -106,6 +106,8 @@ static void draw_sample(struct page *page, const struct legend_item *item, doubl
     set_colour(page, item->colour, 1);
     cairo_set_line_width(cr, 0.13 * em);
     switch (item->mark) {
+    case MARK_NONE:
+        break;
     case MARK_DASHES:
         cairo_set_dash(cr, (double[]){0.45 * em, 0.3 * em}, 2, 0);
         /* fall through */
@@ -200,7 +202,7 @@ static void draw_scale(struct page *page, double x, double y)
  * Returns the height taken. */
 static double draw_item(struct page *page, const struct legend_item *item, double x, double y)
 {
-    const double em = page->em, left = x + 2.5 * em;
+    const double em = page->em, left = item->mark == MARK_NONE ? x : x + 2.5 * em;
     char count[40];
     cairo_text_extents_t box;
     draw_sample(page, item, x, y);

@@ -97,12 +97,24 @@ struct range sampling_range(struct sampling *s)
     return range;
 }
 
+/* Usual classes of slopes: of ground that carries water, of banks, and of what hardly stands. */
+static const struct {
+    const char *unit;
+    double limit[SLOPE_LIMITS];
+} slope_classes[] = {{"degree", {2, 5, 10, 15, 20, 30}},
+                     {"percent", {3, 10, 20, 30, 40, 60}},
+                     {"radian", {0.03, 0.1, 0.2, 0.3, 0.4, 0.6}}};
+
 void scale_name(struct scale *scale, const struct hm_header *h, size_t column, const char *name)
 {
     char unit[24];
     hm_header_unit(h, column, unit, sizeof unit);
     if (!strcmp(name, "z"))
         name = "height";
+    scale->limits = NULL;
+    for (size_t k = 0; k < sizeof slope_classes / sizeof *slope_classes; k++)
+        if (!strcmp(name, "slope") && !strcmp(unit, slope_classes[k].unit))
+            scale->limits = slope_classes[k].limit;
     bool bare = !*unit || !strcmp(unit, "1");
     snprintf(scale->title, sizeof scale->title, bare ? "%.14s" : "%.14s (%s)", name, unit);
     scale->title[0] = (char)toupper((unsigned char)scale->title[0]);

@@ -174,6 +174,19 @@ class Model {
         return Array.from(this.places.subarray(3 * node, 3 * node + 3));
     }
 
+    /* Of all elements in the plane. */
+    area() {
+        let sum = 0;
+        const p = this.places, n = this.corners;
+        for (let k = 0; k < this.elements; k++) {
+            const a = 3 * n[4 * k];
+            const edge = (c, axis) => p[3 * n[4 * k + c] + axis] - p[a + axis];
+            const cross = (b, c) => edge(b, 0) * edge(c, 1) - edge(c, 0) * edge(b, 1);
+            sum += Math.abs(cross(1, 2)) + (k < this.triangles ? 0 : Math.abs(cross(2, 3)));
+        }
+        return sum / 2;
+    }
+
     /* The mesh that holds a node or an element. */
     meshOf(first, k) {
         return this.info.meshes.findLast(mesh => mesh[first] <= k);

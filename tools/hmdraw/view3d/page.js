@@ -128,9 +128,10 @@ class Page {
         this.redraw();
     }
 
-    /* Relief of a fifteenth of the scene's width can be seen well. */
+    /* Relief of a fifteenth of a square as large as the mesh can be seen well. */
     usualStretch() {
-        const [x, y, z] = this.model.size, wanted = Math.hypot(x, y) / 15 / Math.max(z, 1e-9);
+        const [lo, hi] = this.model.info.height.range;
+        const wanted = Math.sqrt(this.model.area()) / 15 / Math.max(hi - lo, 1e-9);
         return [20, 10, 5, 3, 2, 1].find(s => s <= wanted) ?? 1;
     }
 

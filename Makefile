@@ -67,7 +67,7 @@ help:
 #: make check-long the longer ones;  make check-san: make check under ASan and UBSan
 #: make fuzz       fuzz targets (SECONDS=600 each; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
-#: make pictures the picture of the README, from the demo
+#: make pictures the pictures of the README, from the demo (that of the 3D view needs Chromium)
 #: make lint       format, static checks, man pages
 #: make deps       install missing Debian packages (root, or sudo without a password)
 #: make install    DESTDIR= PREFIX=/usr/local PROGPREFIX=
@@ -130,7 +130,11 @@ demo: deps-quiet
 
 # The pictures of the README, from the demo.
 pictures: demo
+	$(Q)tests/deps browser quiet
 	$(Q)$(B)/bin/hmdraw -s 1000 -l 16 -o man/hybrid.png demo/dem.hm demo/hybrid.hm
+	$(Q)$(B)/bin/hmdraw -3 -f z -o demo/view.html demo/hybrid.hm demo/breaklines.hm demo/residuals.hm
+	$(Q)tests/chromium.py demo/view.html size 900 500 drag 600 300 60 -10 wheel 560 260 -260 \
+	    click 458 331 shot man/view.jpg
 
 check: deps-quiet
 	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)

@@ -6,7 +6,7 @@
     drag X Y DX DY    with the left button
     wheel X Y DY
     js EXPRESSION     print its value
-    shot FILE         a picture of the page as PNG
+    shot FILE         a picture of the page: PNG, or JPEG by the suffix .jpg
 
 Numbers may be expressions of the page: 'innerWidth / 2'. Exits 77 when there is no Chromium. What the page prints, and errors in it, go to standard error and
 make the status 1; so does every connection that it tries to open."""
@@ -143,8 +143,10 @@ def main(page, steps):
                 elif step == "js":
                     print(browser.js(steps.pop(0)))
                 elif step == "shot":
-                    shot = browser.call("Page.captureScreenshot", format="png")
-                    with open(steps.pop(0), "wb") as f:
+                    path = steps.pop(0)
+                    shot = browser.call("Page.captureScreenshot", quality=80,
+                                        format="jpeg" if path.endswith(".jpg") else "png")
+                    with open(path, "wb") as f:
                         f.write(base64.b64decode(shot["data"]))
                 else:
                     sys.exit("no such step: " + step)

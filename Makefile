@@ -152,13 +152,17 @@ check-san:
 $(B)/bench/%: tests/bench/%.cc $(LIB)
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "  LD      $@")
-	$(Q)$(CXX) -std=c++17 -O3 -DNDEBUG -Ilibcommon -MMD -MP -o $@ $< $(LIB) -lgmp -lmpfr -pthread -lm
+	$(Q)$(CXX) -std=c++17 -O3 -DNDEBUG -Ilibcommon $(EXTRA_CFLAGS) -MMD -MP -o $@ $< $(LIB) -lgmp -lmpfr \
+	    $(EXTRA_LIBS) -pthread -lm
+$(B)/bench/bench_georef: EXTRA_CFLAGS = $(GEOD_CFLAGS)
+$(B)/bench/bench_georef: EXTRA_LIBS = $(GEOD_LIBS)
+bench-georef: $(B)/bin/georef $(B)/bin/hmconv
 
 bench: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
 bench-delaunay bench-refine: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
 $(BENCH:%=bench-%): bench-%: $(B)/bench/bench_%
 	$(Q)tests/deps bench quiet
-	$(Q)$< $(BENCH_ARGS)
+	$(Q)PATH=$(CURDIR)/$(B)/bin:$$PATH $< $(BENCH_ARGS)
 .PHONY: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
 
 # The programs themselves, as a user runs them.

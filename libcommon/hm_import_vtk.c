@@ -73,21 +73,50 @@ static void read_types(struct reading *r)
     }
 }
 
+static bool is_region(const struct reading *r, const char *name, size_t n)
+{
+    return r->in_cells && (is(name, n, "region") || is(name, n, "material"));
+}
+
+static void read_regions(struct reading *r)
+{
+    for (size_t k = 0; k < r->cells && !r->w.err; k++) {
+        int32_t v = hm_words_count(&r->w);
+        if (!r->w.err && r->elem[k] >= 0)
+            r->m->elem[r->elem[k]].region = v;
+    }
+}
+
 /* `SCALARS name type [components]`, `LOOKUP_TABLE name`, a number a cell. */
 static void read_scalars(struct reading *r)
 {
     const char *s, *end, *name;
     size_t n = hm_words_next(&r->w, &name);
-    bool region = r->in_cells && (is(name, n, "region") || is(name, n, "material"));
+    bool region = is_region(r, name, n);
     hm_words_line(&r->w, &s, &end);
     if (!region)
         return;
     hm_words_expect(&r->w, "LOOKUP_TABLE");
     hm_words_line(&r->w, &s, &end);
-    for (size_t k = 0; k < r->cells && !r->w.err; k++) {
-        int32_t v = hm_words_count(&r->w);
-        if (!r->w.err && r->elem[k] >= 0)
-            r->m->elem[r->elem[k]].region = v;
+    read_regions(r);
+}
+
+/* `FIELD name arrays`, then of each `name components tuples type` and its values. */
+static void read_field(struct reading *r)
+{
+    const char *word;
+    hm_words_next(&r->w, &word);
+    int32_t arrays = hm_words_count(&r->w);
+    for (int32_t k = 0; k < arrays && !r->w.err; k++) {
+        size_t n = hm_words_next(&r->w, &word);
+        bool region = is_region(r, word, n);
+        int64_t components = hm_words_count(&r->w), values = components * hm_words_count(&r->w);
+        hm_words_next(&r->w, &word);
+        if (region && components == 1 && values == (int64_t)r->cells)
+            read_regions(r);
+        else
+            while (values-- > 0 && hm_words_next(&r->w, &word) > 0)
+                ;
     }
 }
 
@@ -106,6 +135,8 @@ static void read_sections(struct reading *r)
             r->in_cells = is(word, n, "CELL_DATA");
         else if (is(word, n, "SCALARS"))
             read_scalars(r);
+        else if (is(word, n, "FIELD"))
+            read_field(r);
     }
     if (!r->w.err && r->m->nelems == 0)
         r->w.err = hm_input_fail(r->w.in, HM_EFORMAT, r->w.d, "no cells");

@@ -45,7 +45,9 @@ GEN       := $(patsubst tests/gen/%.c,$(B)/test/%,$(wildcard tests/gen/*.c))
 UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.c))
 BENCH     := $(patsubst tests/bench/bench_%.cc,%,$(wildcard tests/bench/bench_*.cc))
 BENCH_SH  := $(patsubst tests/bench/bench_%.sh,%,$(wildcard tests/bench/bench_*.sh))
-FUZZ      := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(wildcard tests/fuzz/*.c))
+# A target for each format that hmconv imports, all from one source.
+IMPORTED  := ugrid slf msh ply vtk 2d gr3 geojson wkt triangle
+FUZZ      := $(B)/fuzz/fuzz_reader $(B)/fuzz/fuzz_tri $(IMPORTED:%=$(B)/fuzz/fuzz_import_%)
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
 
@@ -65,7 +67,7 @@ help:
 #:                 (POINTS=survey.xyz LINES=lines.txt: the same with your own data)
 #: make check      all tests that take under two minutes (TESTS=tests/x.t: that one)
 #: make check-long the longer ones;  make check-san: make check under ASan and UBSan
-#: make fuzz       fuzz targets (SECONDS=600 each; needs clang)
+#: make fuzz       fuzz targets (SECONDS=600 each, there are twelve; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
 #: make pictures the pictures of the README, from the demo (that of the 3D view needs Chromium)
 #: make lint       format, static checks, man pages
@@ -181,6 +183,9 @@ $(B)/fuzz/obj/%.o: libcommon/%.c
 	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer-no-link -c -o $@ $<
 $(B)/fuzz/libhm.a: $(LIB_OBJ:$(B)/obj/%=$(B)/fuzz/obj/%)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
+$(IMPORTED:%=$(B)/fuzz/fuzz_import_%): $(B)/fuzz/fuzz_import_%: tests/fuzz/fuzz_import.c $(B)/fuzz/libhm.a
+	$(if $(Q),@echo "  CLANG   $< $*")
+	$(Q)clang $(FUZZ_FLAGS) -DFORMAT='"$*"' -fsanitize=fuzzer -o $@ $< $(B)/fuzz/libhm.a $(JSON_LIBS) -lm
 $(B)/fuzz/%: tests/fuzz/%.c $(B)/fuzz/libhm.a
 	$(if $(Q),@echo "  CLANG   $<")
 	$(Q)clang $(FUZZ_FLAGS) -fsanitize=fuzzer -o $@ $< $(B)/fuzz/libhm.a -lm

@@ -161,8 +161,6 @@ enum hm_err hm_features_end(struct hm_features *f, enum hm_shape shape)
 enum hm_err hm_features_finish(struct hm_features *f, const char *crs)
 {
     enum hm_err err = HM_OK;
-    if (!f->o->points && !f->o->lines)
-        return hm_fail_line(f->d, HM_EFORMAT, f->in->name, 0, "no points and no lines in it");
     if (crs && f->o->points)
         err = hm_header_set(&f->o->points->header, "crs", crs, f->d);
     if (crs && f->o->lines && !err)

@@ -81,6 +81,8 @@ static void read_names(struct reading *r)
 static void read_nodes(struct reading *r)
 {
     int32_t count = hm_words_count(&r->w);
+    if (r->ids.n > 0)
+        hm_words_fail(&r->w, "nodes a second time");
     for (int32_t k = 0; k < count && !r->w.err; k++) {
         int32_t id = hm_words_integer(&r->w);
         double xyz[3];

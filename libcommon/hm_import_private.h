@@ -84,7 +84,7 @@ enum hm_err hm_features_property(struct hm_features *f, const char *key, const c
 /* A vertex, and what those since the last call here are. */
 enum hm_err hm_features_vertex(struct hm_features *f, const double xyz[3]);
 enum hm_err hm_features_end(struct hm_features *f, enum hm_shape shape);
-/* Behind the last: the crs (NULL: none is said). HM_EFORMAT when nothing came. */
+/* Behind the last: the crs (NULL: none is said). */
 enum hm_err hm_features_finish(struct hm_features *f, const char *crs);
 void hm_features_free(struct hm_features *f);
 

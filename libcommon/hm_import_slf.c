@@ -5,10 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first record is one of 80 bytes, big endian. */
+static const char little_endian[4] = "\x50\0\0";
+
+/* The first record is one of 80 bytes, big endian; the other way round it is known, and refused. */
 bool hm_import_is_slf(const char *s, const char *end)
 {
-    return end - s >= 84 && !memcmp(s, "\0\0\0\x50", 4) && !memcmp(s + 76, "SERAFIN", 7);
+    return end - s >= 84 && (!memcmp(s, "\0\0\0\x50", 4) || !memcmp(s, little_endian, 4)) &&
+           !memcmp(s + 76, "SERAFIN", 7);
 }
 
 struct selafin {
@@ -93,7 +96,13 @@ static enum hm_err read_integers(struct selafin *f, int32_t *v, size_t n, struct
 
 static enum hm_err read_title(struct selafin *f, struct hm_diag *d)
 {
-    enum hm_err err = read_record(f, 80, d);
+    enum hm_err err = hm_input_fill(f->in, sizeof little_endian, d);
+    if (!err && hm_input_has(f->in) >= sizeof little_endian &&
+        !memcmp(hm_input_at(f->in), little_endian, sizeof little_endian))
+        return fail(f, HM_EFORMAT, d,
+                    "little-endian, the other way round than Selafin is; write it anew big-endian");
+    if (!err)
+        err = read_record(f, 80, d);
     if (err)
         return err;
     f->real = f->record[79] == 'D' ? 8 : 4;

@@ -247,10 +247,10 @@ static enum hm_err add_vertex(struct reading *r, struct hm_line *line, size_t *c
 /* The line is whole: closed when it has come back. */
 static enum hm_err add_line(struct reading *r, struct hm_line *line)
 {
-    const double *last = line->xyz + 3 * (line->n - 1);
     enum hm_err err = HM_OK;
     if (line->n == 0)
         return HM_OK;
+    const double *last = line->xyz + 3 * (line->n - 1);
     line->closed = line->n > 3 && line->xyz[0] == last[0] && line->xyz[1] == last[1];
     line->n -= line->closed;
     if (line->n > 0)

@@ -46,8 +46,7 @@ struct hm_foreign {
     /* Do these first bytes of a file, up to 64 KB, look like it? */
     bool (*is)(const char *s, const char *end);
     /* All of it, by one of two: into a mesh that is empty but for an initialised header, or into
-     * objects, of which there must be one at least: points, lines and meshes are then given in this
-     * order. */
+     * objects: points, lines and meshes, given in this order. None at all are HM_EFORMAT. */
     enum hm_err (*mesh)(struct hm_input *in, struct hm_mesh *m, struct hm_diag *d);
     enum hm_err (*objects)(struct hm_input *in, struct hm_inputs *objects, struct hm_diag *d);
 };

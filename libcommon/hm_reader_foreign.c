@@ -36,6 +36,8 @@ static enum hm_err read_file(struct hm_reader *r, struct hm_diag *d)
     r->whole_given = 0;
     enum hm_err err =
         r->found->mesh ? read_mesh_file(r, d) : r->found->objects(&r->in, &r->whole, d);
+    if (!err && count(&r->whole) == 0)
+        err = hm_fail_line(d, HM_EFORMAT, r->in.name, 0, "no points, lines or elements in it");
     if (err)
         hm_inputs_free(&r->whole);
     return err;

@@ -332,7 +332,7 @@ if $json; then
     refused "no GeoJSON" "not one of GeoJSON" '{"a":1}'
     refused "a number that is none" "overflow" '{"type":"LineString","coordinates":[[1,2],[1e999,2]]}'
     refused "depth" "no list" '{"type":"Polygon","coordinates":[[1,2],[3,4]]}'
-    refused "nothing in it" "no points and no lines" '{"type":"FeatureCollection","features":[]}'
+    refused "nothing in it" "no points, lines or elements" '{"type":"FeatureCollection","features":[]}'
     refused "the feature is named" "feature 2" \
         '{"type":"FeatureCollection","features":[{"type":"Point","coordinates":[1,2]},{"type":"Pint"}]}'
 fi
@@ -345,7 +345,7 @@ refused "WKT: more fields" ":2: more fields" 'WKT,a
 "POINT (1 2)",3,4'
 refused "WKT: text behind" ":2: expected nothing more" 'WKT,a
 POINT (1 2) and so on,3'
-refused "WKT: a table of nothing" "no points and no lines" 'WKT,a
+refused "WKT: a table of nothing" "no points, lines or elements" 'WKT,a
 ,3'
 nodes='3 2 1 0
 1 0 0 1

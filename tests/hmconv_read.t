@@ -209,6 +209,7 @@ must_fail "gr3: fewer nodes than it says" 2 '.' sh -c "sed 's/^2 4/2 400000000/'
 must_fail "gr3: five corners" 2 'three nor four' sh -c "sed 's/^2 3 10/2 5 10/' plain.gr3 | hmconv"
 must_fail "msh: binary" 2 'as text' sh -c "sed 's/^2.2 0/2.2 1/' other.msh | hmconv"
 must_fail "msh: a tetrahedron" 2 'neither point' sh -c "sed 's/^3 2 3/3 4 3/' other.msh | hmconv"
+must_fail "msh: nodes twice" 2 'a second time' sh -c "sed '/EndNodes/r other.msh' other.msh | hmconv"
 must_fail "ply: binary" 2 'as text' sh -c "sed 's/ascii/binary_little_endian/' other.ply | hmconv"
 must_fail "ply: a face of five" 2 'three nor four' sh -c "sed 's/^3 0 1 2/5 0 1 2 0 1/' other.ply | hmconv"
 must_fail "vtk: binary" 2 'as text' sh -c "sed 's/ASCII/BINARY/' mesh.vtk | hmconv"
@@ -217,6 +218,19 @@ must_fail "2d: arcs that do not go round" 2 'go round' sh -c "sed 's/^AR        
 must_fail "2d: one dimension" 2 'one dimension' sh -c "sed 's/2         0         1         0/2         1         1         0/' middle.2d | hmconv"
 printf '\211HDF\r\n\032\n and so on' >four.nc
 must_fail "NetCDF 4, with the way out" 2 'nccopy -k classic' hmconv four.nc
+{ printf 'P\0\0\0'; tail -c +5 mesh.slf; } >little.slf
+must_fail "Selafin the other way round" 2 'little.slf: little-endian' hmconv little.slf
+printf 'CDF\001\0\0\0\0\012\0\0\0\001\0\0\0' >little.nc
+must_fail "and NetCDF" 2 'little.nc: ' hmconv little.nc
+# two thousand million of what there is one: the file ends, nothing is made room for
+huge=2000000000
+printf 'huge\n%s %s\n1 0 0 1\n2 1 0 1\n' 1 $huge >huge.gr3
+sed "s/^3\$/$huge/" other.msh >huge.msh
+sed "s/vertex 3/vertex $huge/" other.ply >huge.ply
+sed "s/^POINTS 5/POINTS $huge/" mesh.vtk >huge.vtk
+for f in gr3 msh ply vtk; do
+    must_fail "$f: a huge count" 2 "huge.$f:[0-9]*: " sh -c "ulimit -v 400000 2>/dev/null; hmconv huge.$f"
+done
 for f in ugrid slf msh ply vtk gr3 2d; do
     size=$(wc -c <mesh.$f)
     for part in 1 2 3 4 5 6 7 8 9 10 11; do

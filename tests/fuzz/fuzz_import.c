@@ -65,7 +65,7 @@ static void check_mesh(struct hm_reader *r, struct hm_header *h, struct hm_diag 
         return;
     }
     for (size_t k = 0; k < m->nnodes; k++)
-        check_places(&m->node[k].x, 1, 3);
+        check_places((double[]){m->node[k].x, m->node[k].y, m->node[k].z}, 1, 3);
     for (size_t k = 0; k < m->nelems; k++)
         for (int i = 0; i < hm_elem_corners(&m->elem[k]); i++)
             if (m->elem[k].node[i] < 0 || (size_t)m->elem[k].node[i] >= m->nnodes)

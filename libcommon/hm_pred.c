@@ -3,6 +3,7 @@
 #include "hm_bigint.h"
 #include "hm_pred_inline.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -107,6 +108,11 @@ static void big_cross(struct hm_bigint *r, const struct hm_bigint *a, const stru
     hm_bigint_sub(r, &left, &right);
 }
 
+static bool differ(const double *a, const double *b)
+{
+    return a[0] != b[0] || a[1] != b[1];
+}
+
 /* Lattices of any spacing are full of lines along an axis and of upright rectangles. Both are told
  * by equal coordinates alone, for a tenth of what exact arithmetic takes. */
 
@@ -122,16 +128,36 @@ static bool is_upright_rectangle(const double *d, const double *p, const double 
            (d[1] == p[1] && p[0] == q[0] && q[1] == r[1] && r[0] == d[0]);
 }
 
+static int order_of(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+/* The sign of x0 y1 - y0 x1, exactly, for v = x0, y0, x1, y1, or false. Rounding keeps the order of
+ * the products; where they round to the same, what was rounded off decides, which fma gives as long
+ * as it does not underflow. */
+static bool compare_products(const double *v, int *sign)
+{
+    double l = v[0] * v[3], r = v[1] * v[2];
+    if (!isfinite(l) || !isfinite(r))
+        return false;
+    *sign = order_of(l, r);
+    if (*sign == 0 && fabs(l) < 1e-250)
+        return false;
+    if (*sign == 0)
+        *sign = order_of(fma(v[0], v[3], -l), fma(v[1], v[2], -r));
+    return true;
+}
+
 int hm_pred_orient_exact(const double *a, const double *b, const double *c)
 {
     const double *const p[2] = {a, b};
     double v[4];
-    int64_t w[4];
-    if (is_upright_line(a, b, c))
+    int sign;
+    if (is_upright_line(a, b, c) || !differ(a, c) || !differ(b, c) || !differ(a, b))
         return 0;
-    /* 31 bits: products and their difference fit 64 */
-    if (differences(p, 2, c, v) && as_small(v, 4, 31, w))
-        return sign_of(w[0] * w[3] - w[1] * w[2]);
+    if (differences(p, 2, c, v) && compare_products(v, &sign))
+        return sign;
     struct hm_bigint diff[4], det;
     big_differences(p, 2, c, diff);
     big_cross(&det, diff, diff + 2);
@@ -199,11 +225,6 @@ int hm_pred_incircle_tie(const double *a, const double *b, const double *c, cons
     if (last == c)
         return hm_pred_orient_fast(a, b, d);
     return -1;
-}
-
-static bool differ(const double *a, const double *b)
-{
-    return a[0] != b[0] || a[1] != b[1];
 }
 
 int hm_pred_orient(const double *a, const double *b, const double *c)

@@ -93,13 +93,14 @@ int32_t hm_tri_twin(const struct hm_tri *t, int32_t e);
 int32_t hm_tri_edge_from(const struct hm_tri *t, int32_t v); /* some edge with org v */
 int32_t hm_tri_edge_between(const struct hm_tri *t, int32_t a, int32_t b); /* or HM_TRI_NONE */
 
+/* Without branches, which could not be foreseen. */
 static inline int32_t hm_tri_next(int32_t e)
 {
-    return e % 3 == 2 ? e - 2 : e + 1;
+    return e + 1 - 3 * (e % 3 == 2);
 }
 static inline int32_t hm_tri_prev(int32_t e)
 {
-    return e % 3 == 0 ? e + 2 : e - 1;
+    return e - 1 + 3 * (e % 3 == 0);
 }
 
 /* --- constraints --- */

@@ -9,47 +9,50 @@ void hm_tri_cavity_free(struct hm_tri_cavity *c)
     free(c->stack);
 }
 
-static bool is_in_circle(const struct hm_tri *t, int32_t e, const double *p)
+/* Any corner may come first: the sign is that of the circle. */
+static bool is_in_circle(const struct hm_tri *t, int32_t tri, const double *p)
 {
-    return hm_pred_incircle_unique_fast(hm_tri_at(t, t->half[e].org),
-                                        hm_tri_at(t, hm_tri_dest_of(t, e)),
-                                        hm_tri_at(t, hm_tri_apex_of(t, e)), p) > 0;
+    const struct hm_tri_half *h = t->half + 3 * (size_t)tri;
+    return hm_pred_incircle_unique_fast(hm_tri_at(t, h[0].org), hm_tri_at(t, h[1].org),
+                                        hm_tri_at(t, h[2].org), p) > 0;
 }
 
-/* For one triangle more. With m of them the rim and the edges still to look beyond are m + 2. */
-static bool make_room(struct hm_tri_cavity *c)
+/* For `need` triangles, edges of the rim and edges still to look beyond. */
+static bool make_room(struct hm_tri_cavity *c, size_t need)
 {
-    size_t need = c->n_tri + 3, caps[2] = {c->cap, c->cap};
+    size_t caps[2] = {c->cap, c->cap};
     return need <= c->cap || (hm_grow(&c->tri, &caps[0], need, sizeof *c->tri) &&
                               hm_grow(&c->rim, &caps[1], need, sizeof *c->rim) &&
                               hm_grow(&c->stack, &c->cap, need, sizeof *c->stack));
 }
 
 /* Depth first, the edges of a triangle in their order: so the rim comes in order too. No vertex is
- * inside a cavity, hence its triangles form a tree and each is met once. */
+ * inside a cavity, hence its triangles form a tree and each is met once; m of them have m + 2 edges
+ * on the rim. */
 enum hm_err hm_tri_cavity_find(struct hm_tri_cavity *c, const struct hm_tri *t, const double *p,
                                int32_t tri, struct hm_diag *d)
 {
-    size_t n = 0;
-    c->n_tri = c->n_rim = 0;
-    if (!make_room(c))
+    size_t n_tri = 0, n_rim = 0, n = 0;
+    if (!make_room(c, 3))
         return hm_fail_memory(d);
-    c->tri[c->n_tri++] = tri;
+    c->tri[n_tri++] = tri;
     for (int32_t i = 2; i >= 0; i--)
         c->stack[n++] = 3 * tri + i;
     while (n > 0) {
         int32_t e = c->stack[--n], f = t->half[e].twin;
-        if (t->marks[e] || !is_in_circle(t, f, p)) {
-            c->rim[c->n_rim++] =
+        if (t->marks[e] || !is_in_circle(t, f / 3, p)) {
+            c->rim[n_rim++] =
                 (struct hm_tri_rim_edge){t->half[e].org, f, t->marks[e], t->region[e / 3]};
             continue;
         }
-        if (!make_room(c))
+        if (!make_room(c, n_tri + 3))
             return hm_fail_memory(d);
-        c->tri[c->n_tri++] = f / 3;
+        c->tri[n_tri++] = f / 3;
         c->stack[n++] = hm_tri_prev(f);
         c->stack[n++] = hm_tri_next(f);
     }
+    c->n_tri = n_tri;
+    c->n_rim = n_rim;
     return HM_OK;
 }
 

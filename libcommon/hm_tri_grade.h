@@ -11,6 +11,9 @@
 
 #include "hm_tri_topology.h"
 
+/* Area of the equilateral triangle with edges of 1. */
+#define HM_TRI_EQUILATERAL 0.43301270189221932
+
 struct hm_tri_grade {
     double growth; /* lengths a length */
     double *size;
@@ -35,7 +38,7 @@ static inline double hm_tri_grade_area(const struct hm_tri_grade *g, int32_t a, 
                                        int32_t c)
 {
     double h = (g->size[a] + g->size[b] + g->size[c]) / 3;
-    return 0.43301270189221932 * h * h;
+    return HM_TRI_EQUILATERAL * h * h;
 }
 
 #endif

@@ -19,7 +19,8 @@ struct refine {
     const struct hm_tri_quality *q;
     struct hm_tri_refined *done;
     struct hm_diag *d;
-    struct hm_tri_worklist bad;
+    struct hm_tri_worklist large; /* triangles over their area; all before … */
+    struct hm_tri_worklist small; /* … those that only have an angle under the minimum */
     struct hm_tri_cavity cavity;
     struct hm_tri_grade grade;
     struct segment *split; /* constraints to be split, a stack */
@@ -28,10 +29,12 @@ struct refine {
     int32_t first;          /* vertices from here on are ours … */
     struct segment *parent; /* … and lie on these constraints, or on HM_TRI_NONE */
     size_t n_parent, cap_parent;
-    double cos2; /* square of the cosine of the minimum angle */
-    double lens; /* square of the cosine of twice that */
-    double off;  /* the farthest off-centre, in lengths of the edge */
-    double most; /* square of the longest edge */
+    double cos2;      /* square of the cosine of the minimum angle */
+    double lens;      /* square of the cosine of twice that */
+    double off;       /* the farthest off-centre, in lengths of the edge */
+    double most;      /* square of the longest edge */
+    double most_area; /* infinite: no bound … */
+    bool varies;      /* … or smaller ones, from place to place */
 };
 
 /* Ghosts are outside by region. */
@@ -109,25 +112,23 @@ static bool is_given(const struct refine *r, int32_t e)
     return r->t->marks[hm_tri_next(e)] && r->t->marks[hm_tri_prev(e)];
 }
 
-/* Is the shortest edge, e, one between two constraints on a circle about their corner, under the
- * minimum angle there? Then it is the corner that makes it short, and to split its triangle would
- * only make shorter ones. Equally when the small angle is between two constraints itself. */
-static bool is_forced(const struct refine *r, int32_t e)
+/* The corner that makes the edge e short: it is one between two constraints on a circle about the
+ * place where they meet, under the minimum angle there; or HM_TRI_NONE. */
+static int32_t forcing_corner(const struct refine *r, int32_t e)
 {
-    if (is_given(r, e))
-        return true;
     int32_t p = r->t->half[e].org, q = hm_tri_dest_of(r->t, e), corner = common_corner(r, p, q);
     if (corner == HM_TRI_NONE)
-        return false;
+        return HM_TRI_NONE;
     const double *o = hm_tri_at(r->t, corner), *a = hm_tri_at(r->t, p), *b = hm_tri_at(r->t, q);
     double one = length2(o, a), other = length2(o, b), dot = dot_at(o, a, b);
-    return one < 1.001 * other && one > 0.999 * other && dot > 0 &&
-           dot * dot > r->cos2 * one * other;
+    bool forced =
+        one < 1.001 * other && one > 0.999 * other && dot > 0 && dot * dot > r->cos2 * one * other;
+    return forced ? corner : HM_TRI_NONE;
 }
 
 static double asked_area(const struct refine *r, double x, double y, int32_t region)
 {
-    double bound = r->q->max_area > 0 ? r->q->max_area : INFINITY;
+    double bound = r->most_area;
     if (r->q->area_at) {
         double here = r->q->area_at(r->q->arg, x, y, region);
         bound = here > 0 && here < bound ? here : bound;
@@ -135,10 +136,11 @@ static double asked_area(const struct refine *r, double x, double y, int32_t reg
     return bound;
 }
 
-static double largest_area(const struct refine *r, const double *a, const double *b,
-                           const double *c, int32_t tri)
+static double largest_area(const struct refine *r, int32_t tri)
 {
     const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    const double *a = hm_tri_at(r->t, h[0].org), *b = hm_tri_at(r->t, h[1].org);
+    const double *c = hm_tri_at(r->t, h[2].org);
     double bound =
         asked_area(r, (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, hm_tri_region(r->t, tri));
     if (r->q->growth > 0)
@@ -146,45 +148,78 @@ static double largest_area(const struct refine *r, const double *a, const double
     return bound;
 }
 
-struct verdict {
-    int32_t shortest;  /* edge; the smallest angle is opposite */
-    double length2;    /* its length squared */
-    double dot2, base; /* the square of the cosine of that angle is dot2 / base */
-    bool small, large;
+/* The squares of a triangle's edges, 3 tri + i the i-th, and twice its area. */
+struct shape {
+    double length2[3], area2;
 };
 
-static inline struct verdict judge(const struct refine *r, int32_t tri)
+static struct shape shape_of(const struct refine *r, int32_t tri)
 {
     const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
     const double *a = hm_tri_at(r->t, h[0].org), *b = hm_tri_at(r->t, h[1].org);
     const double *c = hm_tri_at(r->t, h[2].org);
-    double length[3] = {length2(a, b), length2(b, c), length2(c, a)};
-    int least = length[1] < length[0] ? 1 : 0;
-    least = length[2] < length[least] ? 2 : least;
-    double product = length[0] * length[1] * length[2];
-    double dot = (length[0] + length[1] + length[2]) / 2 - length[least];
-    struct verdict is = {.shortest = 3 * tri + least, .length2 = length[least]};
-    is.dot2 = dot * dot;
-    is.base = product / length[least];
-    is.small = is.dot2 > r->cos2 * is.base;
-    is.large = fmax(length[0], fmax(length[1], length[2])) > r->most ||
-               hm_area2(a, b, c) > 2 * largest_area(r, a, b, c, tri);
+    return (struct shape){{length2(a, b), length2(b, c), length2(c, a)}, hm_area2(a, b, c)};
+}
+
+struct verdict {
+    int32_t shortest;   /* edge; the smallest angle is opposite */
+    double length2;     /* its length squared */
+    double dot, others; /* the square of that angle's cosine is dot^2 / others; dot > 0 */
+    bool small, large;
+};
+
+/* Without branches: what comes out is as good as random. */
+static inline struct verdict judge(const struct refine *r, int32_t tri, const struct shape *s)
+{
+    double a = s->length2[0], b = s->length2[1], c = s->length2[2];
+    double ab = a < b ? a : b, least = ab < c ? ab : c, product = a * b * c;
+    int last = c < ab, middle = (b < a) & !last;
+    struct verdict is = {.shortest = 3 * tri + middle + 2 * last, .length2 = least};
+    is.dot = (a + b + c) / 2 - least;
+    is.small = is.dot * is.dot * least > r->cos2 * product;
+    is.large = (a > r->most) | (b > r->most) | (c > r->most) |
+               (s->area2 > 2 * (r->varies ? largest_area(r, tri) : r->most_area));
+    is.others = product / least;
     return is;
+}
+
+static enum hm_err queue_bad(struct refine *r, int32_t tri, const struct shape *shape)
+{
+    struct verdict is = judge(r, tri, shape);
+    if (!is.large && (!is.small || is_given(r, is.shortest)))
+        return HM_OK;
+    const struct hm_tri_half *h = r->t->half + 3 * (size_t)tri;
+    struct hm_tri_work work = {is.shortest, {h[0].org, h[1].org, h[2].org}};
+    return hm_tri_worklist_push(is.large ? &r->large : &r->small, work, is.length2, r->d);
 }
 
 static enum hm_err check_triangle(struct refine *r, int32_t tri)
 {
     if (!is_inside(r, tri))
         return HM_OK;
-    struct verdict is = judge(r, tri);
-    if (!is.large && (!is.small || is_forced(r, is.shortest)))
-        return HM_OK;
-    int32_t e = is.shortest;
-    return hm_tri_worklist_push(
-        &r->bad,
-        (struct hm_tri_work){e,
-                             {r->t->half[e].org, hm_tri_dest_of(r->t, e), hm_tri_apex_of(r->t, e)}},
-        is.length2, r->d);
+    struct shape shape = shape_of(r, tri);
+    return queue_bad(r, tri, &shape);
+}
+
+/* The triangles that fill the cavity around a new vertex at p: each spoke is measured once. */
+static enum hm_err check_fan(struct refine *r, const double *p)
+{
+    const struct hm_tri_cavity *c = &r->cavity;
+    const double *a = hm_tri_at(r->t, c->rim[0].org);
+    double ax = a[0] - p[0], ay = a[1] - p[1], aa = ax * ax + ay * ay;
+    enum hm_err err = HM_OK;
+    for (size_t i = 0; !err && i < c->n_rim; i++) {
+        const double *b = hm_tri_at(r->t, hm_tri_cavity_dest(c, i));
+        double bx = b[0] - p[0], by = b[1] - p[1], bb = bx * bx + by * by;
+        double dx = bx - ax, dy = by - ay;
+        struct shape shape = {{dx * dx + dy * dy, bb, aa}, ax * by - ay * bx};
+        if (c->rim[i].region != r->q->outside)
+            err = queue_bad(r, c->tri[i], &shape);
+        ax = bx;
+        ay = by;
+        aa = bb;
+    }
+    return err;
 }
 
 /* Look at all triangles and constraints around a vertex. */
@@ -216,7 +251,7 @@ static enum hm_err grade(struct refine *r, int32_t v)
         if (is_inside(r, e / 3))
             own = fmin(
                 own, sqrt(asked_area(r, hm_tri_at(t, v)[0], hm_tri_at(t, v)[1], t->region[e / 3]) /
-                          0.43301270189221932));
+                          HM_TRI_EQUILATERAL));
         e = hm_tri_turn(t, e);
     } while (e != first);
     r->grade.n_lowered = 0;
@@ -335,8 +370,24 @@ static enum hm_err split_segment(struct refine *r, struct segment s)
 
 /* --- triangles split --- */
 
-/* The circumcentre; or, when that is far from the shortest edge, the point before it on the way
- * there that makes just a good enough triangle with it. */
+/* How far from edge e, in its lengths, a new vertex may be: so near that it makes a good enough
+ * angle with the edge; and, as long as angles to 30 degrees are asked, so near that it also makes a
+ * triangle within its area, though not much flatter than an equilateral one. The mesh then grows
+ * from its short edges inwards as an advancing front (Rebay 1993, Efficient unstructured mesh
+ * generation by means of Delaunay triangulation), a fifth fewer triangles for the same area. Over
+ * 30 degrees circumcentres may make edges shorter than those there were, and a front that fills the
+ * area leaves them no room. */
+static double farthest(const struct refine *r, int32_t e, double length2)
+{
+    if (r->q->min_angle > 30)
+        return r->off;
+    double most =
+        fmin(r->varies ? largest_area(r, e / 3) : r->most_area, HM_TRI_EQUILATERAL * r->most);
+    return fmin(r->off, fmax(0.9 * 2 * most / length2, 0.8));
+}
+
+/* The circumcentre; or, when that is far from the shortest edge, a point before it on the way
+ * there. */
 static void off_centre(const struct refine *r, int32_t e, double *p)
 {
     const double *a = hm_tri_at(r->t, r->t->half[e].org),
@@ -345,8 +396,8 @@ static void off_centre(const struct refine *r, int32_t e, double *p)
     double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
     double bb = bx * bx + by * by, cc = cx * cx + cy * cy, twice = 2 * (bx * cy - by * cx);
     double x = (cy * bb - by * cc) / twice, y = (bx * cc - cx * bb) / twice;
-    double ox = 0.5 * bx - r->off * by, oy = 0.5 * by + r->off * bx;
-    if (r->off > 0 && ox * ox + oy * oy < x * x + y * y) {
+    double off = farthest(r, e, bb), ox = 0.5 * bx - off * by, oy = 0.5 * by + off * bx;
+    if (ox * ox + oy * oy < x * x + y * y) {
         x = ox;
         y = oy;
     }
@@ -356,9 +407,8 @@ static void off_centre(const struct refine *r, int32_t e, double *p)
 
 static bool is_there(const struct hm_tri *t, const struct hm_tri_work *work)
 {
-    const struct hm_tri_half *half = t->half;
-    return half[work->e].org == work->v[0] && half[hm_tri_next(work->e)].org == work->v[1] &&
-           half[hm_tri_prev(work->e)].org == work->v[2];
+    const struct hm_tri_half *h = t->half + work->e / 3 * 3;
+    return h[0].org == work->v[0] && h[1].org == work->v[1] && h[2].org == work->v[2];
 }
 
 enum place { GOOD, TAKEN, BLOCKED };
@@ -390,7 +440,10 @@ static enum hm_err give_up(struct refine *r, size_t rim, enum place *place)
 
 /* May a vertex be put at p, in the cavity found from the triangle? BLOCKED: constraints that are in
  * the way, or would have it too near, are queued. TAKEN: one of them may not be split, or doubles
- * cannot tell p from what is there. */
+ * cannot tell p from what is there.
+ *
+ * Only constraints of the rim can have p beyond them. At any other edge the circle inside holds p
+ * and the one outside does not; beyond the edge the one outside holds all that the other does. */
 static enum hm_err check_place(struct refine *r, int32_t tri, const double *p, enum place *place)
 {
     const struct hm_tri_cavity *c = &r->cavity;
@@ -398,10 +451,11 @@ static enum hm_err check_place(struct refine *r, int32_t tri, const double *p, e
     bool beyond = false;
     *place = GOOD;
     for (size_t i = 0; !err && i < c->n_rim; i++)
-        if (hm_pred_orient_fast(hm_tri_at(r->t, c->rim[i].org),
+        if (c->rim[i].marks &&
+            hm_pred_orient_fast(hm_tri_at(r->t, c->rim[i].org),
                                 hm_tri_at(r->t, hm_tri_cavity_dest(c, i)), p) <= 0) {
             beyond = true;
-            if (c->rim[i].marks && is_on_way(r, tri, i, p))
+            if (is_on_way(r, tri, i, p))
                 err = give_up(r, i, place);
         }
     if (beyond && *place == GOOD)
@@ -434,9 +488,7 @@ static enum hm_err split_triangle(struct refine *r, const struct hm_tri_work *wo
     r->done->inside += !err;
     if (!err)
         err = grade(r, v);
-    for (size_t i = 0; !err && i < r->cavity.n_tri; i++)
-        err = check_triangle(r, r->cavity.tri[i]);
-    return err;
+    return err ? err : check_fan(r, p);
 }
 
 /* --- all of it --- */
@@ -474,7 +526,27 @@ static enum hm_err split_segments(struct refine *r)
     return err;
 }
 
-/* Split a triangle, first the constraints in its way; those that cannot be split end it. */
+/* The triangle of e, its shortest edge, cannot be split before the queued constraints are. Is it
+ * small by force of a corner only, and would that take another circle about it: within the
+ * smallest, or between two that are a doubling apart? */
+static bool is_spared(const struct refine *r, int32_t e)
+{
+    int32_t corner = forcing_corner(r, e);
+    struct shape shape = shape_of(r, e / 3);
+    if (corner == HM_TRI_NONE || judge(r, e / 3, &shape).large)
+        return false;
+    bool another = false;
+    for (size_t i = 0; i < r->n_split; i++) {
+        const double *o = hm_tri_at(r->t, corner);
+        double one = length2(o, hm_tri_at(r->t, r->split[i].a));
+        double other = length2(o, hm_tri_at(r->t, r->split[i].b));
+        another = another || fmax(one, other) < 4.2 * fmin(one, other) || fmin(one, other) == 0;
+    }
+    return another;
+}
+
+/* Split a triangle, first the constraints in its way; those that cannot or shall not be split end
+ * it. */
 static enum hm_err mend(struct refine *r, const struct hm_tri_work *work)
 {
     enum hm_err err = HM_OK;
@@ -482,6 +554,8 @@ static enum hm_err mend(struct refine *r, const struct hm_tri_work *work)
     while (!err && place == BLOCKED && is_there(r->t, work) && !is_full(r)) {
         int64_t added = r->added;
         err = split_triangle(r, work, &place);
+        if (place == BLOCKED && is_spared(r, work->e))
+            r->n_split = 0;
         if (!err)
             err = split_segments(r);
         if (added == r->added)
@@ -492,11 +566,26 @@ static enum hm_err mend(struct refine *r, const struct hm_tri_work *work)
 
 static void fetch_soon(const struct refine *r)
 {
-    const struct hm_tri_work *soon = hm_tri_worklist_soon(&r->bad);
-    if (soon) {
-        __builtin_prefetch(r->t->half + soon->e);
-        __builtin_prefetch(hm_tri_at(r->t, soon->v[2]));
+    const struct hm_tri *t = r->t;
+    const struct hm_tri_worklist *list = r->large.lowest < HM_TRI_LISTS ? &r->large : &r->small;
+    const struct hm_tri_work *later = hm_tri_worklist_soon(list, 7);
+    const struct hm_tri_work *soon = hm_tri_worklist_soon(list, 3);
+    if (later)
+        __builtin_prefetch(t->half + later->e);
+    if (soon && is_there(t, soon)) {
+        const struct hm_tri_half *h = t->half + soon->e / 3 * 3;
+        for (int i = 0; i < 3; i++) {
+            __builtin_prefetch(hm_tri_at(t, h[i].org));
+            __builtin_prefetch(t->half + h[i].twin);
+        }
     }
+}
+
+/* Large triangles by their newest: what is in the cache. Where angles decide, the oldest first
+ * makes fewer triangles. */
+static bool take_work(struct refine *r, struct hm_tri_work *work)
+{
+    return hm_tri_worklist_pop(&r->large, work) || hm_tri_worklist_pop(&r->small, work);
 }
 
 static enum hm_err refine(struct refine *r)
@@ -512,7 +601,7 @@ static enum hm_err refine(struct refine *r)
         err = check_triangle(r, k);
     if (!err)
         err = split_segments(r);
-    while (!err && !is_full(r) && hm_tri_worklist_pop(&r->bad, &work)) {
+    while (!err && !is_full(r) && take_work(r, &work)) {
         fetch_soon(r);
         err = mend(r, &work);
     }
@@ -531,8 +620,9 @@ static void report(struct refine *r)
     for (int32_t k = 0; k < r->t->triangles; k++) {
         if (!is_inside(r, k))
             continue;
-        struct verdict is = judge(r, k);
-        double cos2 = is.dot2 / is.base;
+        struct shape shape = shape_of(r, k);
+        struct verdict is = judge(r, k, &shape);
+        double cos2 = is.dot * is.dot / is.others;
         int32_t v = hm_tri_apex_of(r->t, is.shortest);
         const double *apex = hm_tri_at(r->t, v);
         bool given = is.small && is_given(r, is.shortest);
@@ -567,15 +657,19 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     r->first = t->vertices;
     r->cos2 = q->min_angle > 0 ? cos(angle) * cos(angle) : 2;
     r->lens = cos(2 * angle) * cos(2 * angle);
-    r->off = q->min_angle > 0 ? 0.36 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : 0;
     r->most = q->max_edge > 0 ? q->max_edge * q->max_edge : INFINITY;
-    hm_tri_worklist_init(&r->bad);
+    r->most_area = q->max_area > 0 ? q->max_area : INFINITY;
+    r->varies = q->area_at || q->growth > 0;
+    r->off = q->min_angle > 0 ? 0.36 * sqrt((1 + cos(angle)) / (1 - cos(angle))) : INFINITY;
+    hm_tri_worklist_init(&r->large, true);
+    hm_tri_worklist_init(&r->small, false);
     enum hm_err err = refine(r);
-    if (!err)
+    if (!err && (done || q->sharp))
         report(r);
     hm_tri_cavity_free(&r->cavity);
     hm_tri_grade_free(&r->grade);
-    free(r->bad.block);
+    free(r->large.block);
+    free(r->small.block);
     free(r->split);
     free(r->parent);
     free(r);

@@ -2,16 +2,15 @@
 
 #include <string.h>
 
-enum { NONE = -1, AHEAD = 4 };
-
-void hm_tri_worklist_init(struct hm_tri_worklist *w)
+void hm_tri_worklist_init(struct hm_tri_worklist *w, bool newest_first)
 {
+    w->newest_first = newest_first;
     w->block = NULL;
     w->n = w->cap = 0;
-    w->free = NONE;
+    w->free = HM_TRI_NO_BLOCK;
     w->lowest = HM_TRI_LISTS;
     for (int i = 0; i < HM_TRI_LISTS; i++)
-        w->list[i].head = NONE;
+        w->list[i].head = HM_TRI_NO_BLOCK;
 }
 
 /* Exponent and the first two bits behind the point, as they stand in the double: ordered as the
@@ -24,18 +23,27 @@ static int list_of(double length2)
     return list < HM_TRI_LISTS ? (int)list : HM_TRI_LISTS - 1;
 }
 
-static bool take_block(struct hm_tri_worklist *w, int32_t *block)
+static bool take_block(struct hm_tri_worklist *w, int32_t before, int32_t *block)
 {
     *block = w->free;
-    if (*block != NONE) {
+    if (*block != HM_TRI_NO_BLOCK) {
         w->free = w->block[*block].next;
     } else {
         if (w->n == INT32_MAX || !hm_grow(&w->block, &w->cap, w->n + 1, sizeof *w->block))
             return false;
         *block = (int32_t)w->n++;
     }
-    w->block[*block].next = NONE;
+    w->block[*block].next = HM_TRI_NO_BLOCK;
+    w->block[*block].before = before;
+    if (before != HM_TRI_NO_BLOCK)
+        w->block[before].next = *block;
     return true;
+}
+
+static void give_block(struct hm_tri_worklist *w, int32_t block)
+{
+    w->block[block].next = w->free;
+    w->free = block;
 }
 
 enum hm_err hm_tri_worklist_push(struct hm_tri_worklist *w, struct hm_tri_work work, double length2,
@@ -43,48 +51,53 @@ enum hm_err hm_tri_worklist_push(struct hm_tri_worklist *w, struct hm_tri_work w
 {
     int i = list_of(length2);
     int32_t block;
-    if (w->list[i].head == NONE) {
-        if (!take_block(w, &block))
+    bool empty = w->list[i].head == HM_TRI_NO_BLOCK;
+    if (empty || w->list[i].end == HM_TRI_BLOCK) {
+        if (!take_block(w, empty ? HM_TRI_NO_BLOCK : w->list[i].tail, &block))
             return hm_fail_memory(d);
-        w->list[i].head = w->list[i].tail = block;
-        w->list[i].first = w->list[i].end = 0;
-    } else if (w->list[i].end == HM_TRI_BLOCK) {
-        if (!take_block(w, &block))
-            return hm_fail_memory(d);
-        w->block[w->list[i].tail].next = block;
         w->list[i].tail = block;
         w->list[i].end = 0;
+    }
+    if (empty) {
+        w->list[i].head = w->list[i].tail;
+        w->list[i].first = 0;
     }
     w->block[w->list[i].tail].work[w->list[i].end++] = work;
     w->lowest = i < w->lowest ? i : w->lowest;
     return HM_OK;
 }
 
+/* Blocks at either end that have nothing left. */
+static void give_spent(struct hm_tri_worklist *w, int i)
+{
+    int32_t head = w->list[i].head, tail = w->list[i].tail;
+    if (head == tail) {
+        if (w->list[i].first == w->list[i].end) {
+            w->list[i].head = HM_TRI_NO_BLOCK;
+            give_block(w, head);
+        }
+    } else if (w->list[i].first == HM_TRI_BLOCK) {
+        w->list[i].head = w->block[head].next;
+        w->list[i].first = 0;
+        give_block(w, head);
+    } else if (w->list[i].end == 0) {
+        w->list[i].tail = w->block[tail].before;
+        w->list[i].end = HM_TRI_BLOCK;
+        give_block(w, tail);
+    }
+}
+
 bool hm_tri_worklist_pop(struct hm_tri_worklist *w, struct hm_tri_work *work)
 {
-    while (w->lowest < HM_TRI_LISTS && w->list[w->lowest].head == NONE)
+    while (w->lowest < HM_TRI_LISTS && w->list[w->lowest].head == HM_TRI_NO_BLOCK)
         w->lowest++;
     if (w->lowest == HM_TRI_LISTS)
         return false;
     int i = w->lowest;
-    int32_t head = w->list[i].head;
-    *work = w->block[head].work[w->list[i].first++];
-    bool last = head == w->list[i].tail && w->list[i].first == w->list[i].end;
-    if (last || w->list[i].first == HM_TRI_BLOCK) {
-        w->list[i].head = last ? NONE : w->block[head].next;
-        w->list[i].first = 0;
-        w->block[head].next = w->free;
-        w->free = head;
-    }
+    if (w->newest_first)
+        *work = w->block[w->list[i].tail].work[--w->list[i].end];
+    else
+        *work = w->block[w->list[i].head].work[w->list[i].first++];
+    give_spent(w, i);
     return true;
-}
-
-const struct hm_tri_work *hm_tri_worklist_soon(const struct hm_tri_worklist *w)
-{
-    int i = w->lowest;
-    if (i == HM_TRI_LISTS || w->list[i].head == NONE)
-        return NULL;
-    int32_t at = w->list[i].first + AHEAD;
-    int32_t end = w->list[i].head == w->list[i].tail ? w->list[i].end : HM_TRI_BLOCK;
-    return at < end ? &w->block[w->list[i].head].work[at] : NULL;
 }

@@ -11,8 +11,7 @@
 static const struct {
     double least; /* degrees */
     const char *text;
-} angle_class[] = {
-    {30, "smallest angle over 30°"}, {20, "20° to 30°"}, {10, "10° to 20°"}, {-1, "under 10°"}};
+} angle_class[] = {{30, "over 30°"}, {20, "20° to 30°"}, {10, "10° to 20°"}, {-1, "under 10°"}};
 enum { ANGLES = sizeof angle_class / sizeof *angle_class, SHADES = 48, LIGHTS = 24 };
 
 void classes_free(struct classes *c)

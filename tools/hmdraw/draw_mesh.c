@@ -215,6 +215,8 @@ enum hm_err draw_mesh(struct page *page, const struct hm_mesh *m, enum mesh_fill
 {
     struct classes classes = {0};
     enum hm_err err = fill == FILL_WIRE ? HM_OK : classify(&classes, m, fill, heights, d);
+    if (fill == FILL_QUALITY)
+        legend_add(page, MARK_NONE, INK, -1, "Smallest angle");
     if (!err && classes.n)
         err = fill_elements(page, m, &classes, fill, d);
     if (fill != FILL_MATERIAL)

@@ -36,41 +36,78 @@ static double dot_radius(const struct page *page, size_t n)
     return fmin(0.2 * page->em, fmax(0.5, 0.45 * distance));
 }
 
+struct dots {
+    struct image *image;
+    const struct view *view;
+    double radius; /* pixels of the image */
+    double rim;    /* how dark it is, 0 .. 1 */
+};
+
+/* A dot for a point, if it reaches into the map; `part` of the usual size. Large ones have a dark
+ * rim, which tells them from what lies under them and from each other. */
+static void put_point(const struct dots *dots, const double *row, double part, struct rgb colour)
+{
+    const struct view *v = dots->view;
+    struct image *image = dots->image;
+    const double radius = part * dots->radius, rim = radius > 2 ? 0.22 * radius : 0;
+    const double x = (view_x(v, row[0]) - v->x) * image->zoom;
+    const double y = (view_y(v, row[1]) - v->y) * image->zoom;
+    if (!(x > -radius && y > -radius && x < (double)image->width + radius &&
+          y < (double)image->height + radius))
+        return;
+    if (rim > 0)
+        put_dot(image, x, y, radius, blend(INK, dots->rim, colour));
+    put_dot(image, x, y, radius - rim, colour);
+}
+
+static void draw_heights(const struct dots *dots, const struct hm_points *p, struct range range)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        const double *row = &p->v[i * p->stride];
+        struct rgb c = GREY;
+        if (!isnan(row[2]))
+            c = ramp_colour(RAMP_HEIGHT, range_part(range, row[2]));
+        put_point(dots, row, 1, c);
+    }
+}
+
+/* The worst on top; what lies beside the mesh, small, under all that lies on it. */
+static void draw_residuals(const struct dots *dots, const struct hm_points *p, int column,
+                           int64_t count[RESIDUAL_CLASSES])
+{
+    for (int k = 0; k < RESIDUAL_CLASSES; k++) {
+        const enum hm_residual_class wanted =
+            residual_order[(k + RESIDUAL_CLASSES - 1) % RESIDUAL_CLASSES];
+        const struct rgb colour = residual_class(wanted).colour;
+        for (size_t i = 0; i < p->n; i++) {
+            const double *row = &p->v[i * p->stride];
+            if (hm_residual_classify(row[column], residual_limits) != wanted)
+                continue;
+            put_point(dots, row, wanted == HM_RESIDUAL_NONE ? 0.5 : 1, colour);
+            count[wanted] += view_holds(dots->view, row[0], row[1]);
+        }
+    }
+}
+
 enum hm_err draw_points(struct page *page, const struct hm_points *p, const struct scale *heights,
                         struct hm_diag *d)
 {
     const int residual = hm_header_field(&p->header, "residual");
-    const struct view *v = &page->view;
-    size_t inside = view_points(v, p);
+    const size_t inside = view_points(&page->view, p);
     if (!inside)
         return HM_OK;
     struct image image;
     enum hm_err err = image_open(&image, page, d);
     if (err)
         return err;
-    const double radius = dot_radius(page, inside) * image.zoom;
-    int64_t count[RESIDUAL_CLASSES] = {0};
-    for (size_t i = 0; i < p->n; i++) {
-        const double *row = &p->v[i * p->stride];
-        double x = (view_x(v, row[0]) - v->x) * image.zoom;
-        double y = (view_y(v, row[1]) - v->y) * image.zoom;
-        if (!(x > -radius && y > -radius && x < (double)image.width + radius &&
-              y < (double)image.height + radius))
-            continue;
-        struct rgb c = GREY;
-        if (residual >= 0) {
-            enum hm_residual_class class = hm_residual_classify(row[residual], residual_limits);
-            count[class]++;
-            c = residual_class(class).colour;
-        } else if (!isnan(row[2])) {
-            c = ramp_colour(RAMP_HEIGHT, range_part(heights->range, row[2]));
-        }
-        /* what lies beside the mesh shall not drown what lies on it */
-        bool aside = residual >= 0 && isnan(row[residual]);
-        put_dot(&image, x, y, aside ? radius / 2 : radius, c);
-    }
-    enter_residuals(page, count);
-    if (residual < 0) {
+    const struct dots dots = {&image, &page->view, dot_radius(page, inside) * image.zoom,
+                              residual >= 0 ? 0.5 : 0.25};
+    if (residual >= 0) {
+        int64_t count[RESIDUAL_CLASSES] = {0};
+        draw_residuals(&dots, p, residual, count);
+        enter_residuals(page, count);
+    } else {
+        draw_heights(&dots, p, heights->range);
         legend_add(page, MARK_DOT, GREY, (int64_t)inside, "Measurements");
         legend_bar(page, RAMP_HEIGHT, heights);
     }

@@ -73,6 +73,11 @@ void hm_reader_foreign(struct hm_reader *r, const struct hm_foreign *list)
     r->foreign = list;
 }
 
+const struct hm_foreign *hm_reader_found(const struct hm_reader *r)
+{
+    return r->form == &hm_reader_whole ? r->found : NULL;
+}
+
 const char *hm_reader_name(const struct hm_reader *r)
 {
     return r->in.name;

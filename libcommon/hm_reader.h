@@ -51,6 +51,9 @@ struct hm_foreign {
     enum hm_err (*objects)(struct hm_input *in, struct hm_inputs *objects, struct hm_diag *d);
 };
 
+/* The format of that list in which the object just given stands; NULL: none of them. */
+const struct hm_foreign *hm_reader_found(const struct hm_reader *r);
+
 /* Recognise these as well, before all others but the project's own; the list ends with a NULL
  * name. */
 void hm_reader_foreign(struct hm_reader *r, const struct hm_foreign *list);

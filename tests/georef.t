@@ -73,13 +73,16 @@ if command -v GeoConvert >/dev/null; then
         near "and back" got.ground want.ground 1e-9 1e-9
     done
 
-    # the zone by the centre: borders, Norway, Svalbard, poles, the antimeridian
+    # the zone by the centre, and the place in it: borders, Norway, Svalbard, poles, the antimeridian
+    : >got.one; : >want.one
     while read -r lon lat; do
         printf '%s %s 0\n' "$lon" "$lat" | georef >one.hm
         got=$(sed -n 's/^#crs U[TP][MS] \([0-9]*[NS]\) WGS84/\1/p' one.hm | tr NS ns)
         want=$(echo "$lat $lon" | GeoConvert -u -p 0 | sed 's/^0*//; s/ .*//')
         [ -n "$got" ] && [ "$got" = "$want" ]
         report $? "zone of $lon $lat: $want"
+        data one.hm >>got.one
+        echo "$lat $lon" | GeoConvert -u -p 9 | awk '{ print $2, $3 }' >>want.one
     done <<'END'
 0 0
 5.999999 10
@@ -105,7 +108,18 @@ if command -v GeoConvert >/dev/null; then
 77 -90
 10 -80
 10 -80.000001
+0 72
+8.999999 78.2
+9 78.2
+15 78.2
+20.999999 83.9
+32.999999 78.2
+33 78.2
+5.3 60.4
+11.999999 63.999999
+2.9 58
 END
+    near "and the coordinates there" got.one want.one 1e-6 1e-6
     printf '32UNV1343802438 245.5 7\n32UNV13 1 8\n' >mgrs
     georef -m -z 32N mgrs >mgrs.hm
     data mgrs.hm >got
@@ -151,13 +165,23 @@ data one.hm >got
 echo "1000 2000 0" >want
 near "the centre itself" got want 1e-9 1e-9 0
 if command -v CartConvert >/dev/null; then
-    georef -t enu -c 9.25,48,310 wide.xyz >enu.hm
-    data enu.hm >got
-    awk '{ print $2, $1, $3 }' wide.xyz | CartConvert -l 48 9.25 310 -p 9 >want
-    near "east, north, up" got want 1e-6 1e-6 1e-6
-    georef -i enu.hm >deg.hm
-    data deg.hm >got
-    near "and back" got wide.xyz 1e-9 1e-9 1e-6
+    # origins in the middle of a country, at the poles, on the antimeridian and on the equator
+    while read -r lon lat h; do
+        georef -t enu -c "$lon,$lat,$h" wide.xyz >enu.hm
+        data enu.hm >got
+        awk '{ print $2, $1, $3 }' wide.xyz | CartConvert -l "$lat" "$lon" "$h" -p 9 >want
+        near "east, north, up at $lon $lat" got want 1e-6 1e-6 1e-6
+        georef -i enu.hm >deg.hm
+        data deg.hm >got
+        near "and back" got wide.xyz 1e-9 1e-9 1e-6
+    done <<'END'
+9.25 48 310
+12 90 0
+-70 -90 2800
+180 -17.5 5
+-179.9999 66 -20
+0 0 0
+END
 else
     skip "CartConvert is not there (geographiclib-tools)"
 fi
@@ -206,6 +230,17 @@ for j in 1 2 5; do
 done
 same "any number of threads" many.1 many.2
 same "any number of threads" many.1 many.5
+awk 'BEGIN { for (i = 0; i < 70000; i++) print (i == 40000 ? 60 : i == 41000 ? 61 : 9), 8, i }' >far.xyz
+for j in 1 2 5; do
+    georef -z 32N -j $j far.xyz 2>far.$j >/dev/null
+done
+same "and the same place that is wrong" far.1 far.5
+ok "the first of them" grep -q " at 60 8" far.2
+awk 'BEGIN { for (i = 0; i < 400000; i++) print 9 + i % 300 / 1e3, 48 + i / 1e6, i }' | hmconv -b >large.hm
+if (ulimit -v 200000) 2>/dev/null && [ "$(wc -c <large.hm)" -gt 9000000 ] && ! nm "$(command -v georef)" 2>/dev/null | grep -q asan; then
+    ok "points stream: no memory for all of them" sh -c \
+        'ulimit -v 60000; cat large.hm large.hm large.hm large.hm large.hm large.hm large.hm large.hm | georef -b -j 2 -z 32N >/dev/null'
+fi
 ok "all are there" sh -c 'tail -n 1 many.1 | grep -q "^#end 70000$"'
 printf '#hm 1 points text\n#fields x y z class\n#units degree degree m 1\n#crs EPSG:4326\n#data\n9 48 5 2\n#end\n' |
     georef -z 32 >class.hm
@@ -261,7 +296,22 @@ near "the same with x y in metres" got want 0 0 1e-9
 must_fail "a geoid that is not there" 2 "nowhere" georef -t same -g nowhere.pgm small.xyz
 
 # --- what is refused ---
-must_fail "the other tools refuse degrees and name georef" 2 "georef" \
+printf '#hm 1 points text\n#crs longitude latitude WGS84\n#data\n9 48 1\n9.1 48 1\n9 48.1 1\n#end\n' >degrees.hm
+printf '#hm 1 grid text\n#size 2 2\n#origin 9 48\n#step 1 1\n#fields x y z slope\n#crs EPSG:4326\n#data\n9 48 1 0\n10 48 1 0\n9 49 1 0\n10 49 1 0\n#end\n' >slope.hm
+printf '#hm 1 mesh text\n#crs EPSG:4326\n#data\nv 9 48 1 0 0\nv 9.1 48 1 0 0\nv 9 48.1 1 0 0\nt 0 1 2 0\n#end\n' >degmesh.hm
+# the shapes of their commands, each with an input in degrees
+while read -r command; do
+    must_fail "${command%% *} refuses degrees and names georef" 2 "longitude and latitude.*georef" sh -c "$command"
+done <<'END'
+bsgrid -d 1 degrees.hm
+slope slope.hm
+breaklines -s 5 slope.hm
+bsmesh -c 1/1 -e 1/1 degrees.hm
+trimesh -l 1 degrees.hm
+stitch degmesh.hm
+quality degmesh.hm degrees.hm
+END
+must_fail "by the names of columns as well" 2 "georef" \
     sh -c 'printf "lon,lat,z\n9,48,1\n9.1,48,1\n9,48.1,1\n" | bsgrid -d 1'
 printf '#hm 1 grid text\n#size 2 2\n#origin 9 48\n#step 1 1\n#data\n9 48 1\n10 48 1\n9 49 1\n10 49 1\n#end\n' >grid.hm
 must_fail "a grid, with the way around" 2 "grid.hm: .*hmconv -t xyz grid.hm | georef" georef grid.hm

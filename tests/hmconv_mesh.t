@@ -490,6 +490,13 @@ ok "split and from a local origin" sh -c 'grep -qx "t 0 1 2 0" local.hm && grep 
     grep -qx "v 10 0 0.30000000000000004 0 0" local.hm && grep -q "^#crs UTM 32N WGS84, from 545000,5972000" local.hm'
 convert gr3 --datum 10
 ok "depths below a datum" grep -qx '1 545000.5 5972000.123456789 8.75' got
+hmconv -s mesh.hm | sed -n 's/^v //p' | cut -d ' ' -f 1-2 >want
+hmconv --datum 10 got >back.hm
+sed -n 's/^v //p' back.hm | cut -d ' ' -f 1-2 >seen
+same "and back" want seen
+ok "heights again" sh -c 'grep -q "^v 545000.5 5972000.123456789 1.25 0 0" back.hm && grep -q "^#prog hmconv [0-9.]* --datum 10$" back.hm'
+hmconv -t gr3 --datum 10 got >again
+same "and depths once more" got again
 sed 's/545010 5972010 -2e-7/545004 5972006 0/' mesh.hm >concave.hm
 ok "a concave quadrilateral is split inside" sh -c 'hmconv -s concave.hm | grep -qx "t 0 1 2 0"'
 awk 'BEGIN { # an island, all round open: both loops whole

@@ -102,7 +102,7 @@ static const struct hm_option options[] = {
     {0, "origin", "X,Y", HM_OPT_TEXT, &cmd.origin,
      .help = "mesh: subtract this from all coordinates"},
     {0, "datum", "H", HM_OPT_NUMBER, &cmd.datum,
-     .help = "gr3, fort14: the height that depths are counted from (default 0)", .silent = true},
+     .help = "gr3, fort14, both ways: the height that depths are counted from (default 0)"},
     {0, "band", "NAME", HM_OPT_TEXT, &cmd.band,
      .help = "asc, xyz: this band of a grid (default the first)", .silent = true},
     {0}};
@@ -196,6 +196,23 @@ static void *need(struct hm_cli *cli, void *memory)
     return memory;
 }
 
+/* Depths below --datum, which the reader takes to be below 0, become heights. */
+static bool has_depths(struct hm_cli *cli)
+{
+    const struct hm_foreign *found = hm_reader_found(hm_cli_reader(cli));
+    return found && !strcmp(found->name, "gr3") && cmd.datum != 0;
+}
+
+static enum hm_err read_mesh(struct hm_cli *cli, struct hm_mesh *m, struct hm_header *h,
+                             struct hm_diag *d)
+{
+    double datum = has_depths(cli) ? cmd.datum : 0;
+    enum hm_err err = hm_mesh_read(m, hm_cli_reader(cli), h, d);
+    for (size_t k = 0; k < m->nnodes && !err && datum != 0; k++)
+        m->node[k].z += datum;
+    return err;
+}
+
 static enum hm_err hold(struct hm_cli *cli, const struct hm_header *h, struct hm_diag *d)
 {
     struct hm_header own = {0};
@@ -212,7 +229,7 @@ static enum hm_err hold(struct hm_cli *cli, const struct hm_header *h, struct hm
         held_band = find_band(cli, h);
         return hm_grid_read(need(cli, hm_inputs_add_grid(&held)), r, &own, d);
     default:
-        return hm_mesh_read(need(cli, hm_inputs_add_mesh(&held)), r, &own, d);
+        return read_mesh(cli, need(cli, hm_inputs_add_mesh(&held)), &own, d);
     }
 }
 
@@ -342,7 +359,7 @@ static enum hm_err copy_mesh(struct hm_cli *cli, const struct hm_header *h, stru
     struct hm_header own = {0};
     enum hm_err err = hm_header_copy(&own, h, d);
     if (!err)
-        err = hm_mesh_read(&m, hm_cli_reader(cli), &own, d);
+        err = read_mesh(cli, &m, &own, d);
     if (!err)
         err = hm_header_add_history(&m.header, hm_cli_history(cli), d);
     if (!err) {
@@ -499,8 +516,9 @@ static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *lef
     say_header_losses(cli, h);
     switch (way) {
     case STREAM:
-        return h->kind == HM_MESH && (cmd.split || cmd.origin) ? copy_mesh(cli, h, d)
-                                                               : copy_object(cli, h, d);
+        return h->kind == HM_MESH && (cmd.split || cmd.origin || has_depths(cli))
+                   ? copy_mesh(cli, h, d)
+                   : copy_object(cli, h, d);
     case XYZ:
     case CSV:
         if (way == CSV)

@@ -102,7 +102,7 @@ static const struct hm_option options[] = {
     {0, "origin", "X,Y", HM_OPT_TEXT, &cmd.origin,
      .help = "mesh: subtract this from all coordinates"},
     {0, "datum", "H", HM_OPT_NUMBER, &cmd.datum,
-     .help = "gr3, fort14, both ways: the height that depths are counted from (default 0)"},
+     .help = "gr3, fort14, both ways: the height that depths count from (default 0)"},
     {0, "band", "NAME", HM_OPT_TEXT, &cmd.band,
      .help = "asc, xyz: this band of a grid (default the first)", .silent = true},
     {0}};

@@ -237,10 +237,10 @@ done
 same "and the same place that is wrong" far.1 far.5
 ok "the first of them" grep -q " at 60 8" far.2
 awk 'BEGIN { for (i = 0; i < 400000; i++) print 9 + i % 300 / 1e3, 48 + i / 1e6, i }' | hmconv -b >large.hm
-if (ulimit -v 200000) 2>/dev/null && [ "$(wc -c <large.hm)" -gt 9000000 ] && ! nm "$(command -v georef)" 2>/dev/null | grep -q asan; then
-    ok "points stream: no memory for all of them" sh -c \
-        'ulimit -v 60000; cat large.hm large.hm large.hm large.hm large.hm large.hm large.hm large.hm | georef -b -j 2 -z 32N >/dev/null'
-fi
+limit="ulimit -v 60000;" # which the sanitizers cannot run under
+sh -c "$limit georef --version" >/dev/null 2>&1 || limit=
+ok "points stream: there is no memory for all of them" sh -c \
+    "$limit cat large.hm large.hm large.hm large.hm large.hm large.hm large.hm large.hm | georef -b -j 2 -z 32N >/dev/null"
 ok "all are there" sh -c 'tail -n 1 many.1 | grep -q "^#end 70000$"'
 printf '#hm 1 points text\n#fields x y z class\n#units degree degree m 1\n#crs EPSG:4326\n#data\n9 48 5 2\n#end\n' |
     georef -z 32 >class.hm

@@ -57,6 +57,11 @@ enum hm_err hm_export_srh(const struct hm_mesh *m, struct hm_writer *w, struct h
 enum hm_err hm_export_asc(const struct hm_grid *g, size_t band, int decimals, struct hm_writer *w,
                           struct hm_diag *d);
 
+/* .prj, ESRI's words for UTM, transverse Mercator, and longitude and latitude on WGS84; the text of
+ * a
+ * `#crs`. HM_EARG for any other. */
+enum hm_err hm_export_prj(const char *crs, struct hm_writer *w, struct hm_diag *d);
+
 /* A line "x y z" each; rows without z are left out and counted. */
 enum hm_err hm_export_xyz(const double *rows, size_t n, size_t stride, int decimals,
                           int64_t *left_out, struct hm_writer *w, struct hm_diag *d);

@@ -122,6 +122,8 @@ ok "a corner that would not lead back to 0.001 exactly: the middle of the cell" 
     grep -q '^xllcenter 0.001' fine.asc
 hmconv fine.asc >fine_back.hm
 ok "and the origin comes back exactly" grep -q '^#origin 0.001 7.001$' fine_back.hm
+must_fail "a .prj of nothing" 2 "no crs is said" hmconv -t prj grid.hm
+must_fail "a .prj without words" 2 'no words for the crs "local"' sh -c "sed 's/^#data/#crs local\n&/' grid.hm | hmconv -t prj"
 must_fail "cells that are not square" 2 "square" sh -c "sed 's/^#step.*/#step 1 2/; s/ 201.5/ 202.5/' grid.hm | hmconv -t asc"
 must_fail "a band that is not there" 2 "no band 'aspect'" hmconv -t asc --band aspect grid.hm
 must_fail "two grids" 2 "one grid" hmconv -t asc grid.hm grid.hm

@@ -194,6 +194,20 @@ END
 )
     true_that "a corner half a cell outside the first node" \
         "($x + 1 - $(sed -n 's/^#origin \([^ ]*\) .*/\1/p' dem.hm)) ^ 2 < 1e-12"
+    sed 's/^#data/#crs UTM 32N WGS84\n&/' dem.hm >utm.hm
+    hmconv -t prj utm.hm >dem.prj
+    ok "the zone beside it" sh -c 'gdalinfo dem.asc | grep -q "UTM zone 32N\|UTM_Zone_32N"'
+    ok "as a code" sh -c 'gdalsrsinfo -o epsg dem.prj | grep -q EPSG:32632'
+    printf '#hm 1 points text\n#crs EPSG:32733\n#data\n1 2 3\n#end\n' | hmconv -t prj >south.prj
+    ok "in the south" sh -c 'gdalsrsinfo -o epsg south.prj | grep -q EPSG:32733'
+    printf '#hm 1 points text\n#crs TM lon=9.25 lat=48 scale=0.9999 x=3500000 y=-20.5 WGS84\n#data\n0 0 3\n#end\n' >tm.hm
+    hmconv -t prj tm.hm >tm.prj
+    echo "3512345 6789" | gdaltransform -s_srs tm.prj -t_srs EPSG:4326 2>err | awk '{ printf "%.8f %.8f\n", $1, $2 }' >want
+    sed 's/^0 0/3512345 6789/' tm.hm >place.hm
+    if command -v georef >/dev/null; then
+        georef -i place.hm | awk '/^[0-9]/ { printf "%.8f %.8f\n", $1, $2 }' >got
+        same "a transverse Mercator of one's own" want got
+    fi
 else
     skip "gdal_translate is not there (gdal-bin)"
 fi

@@ -36,6 +36,7 @@ static const struct format formats[] = {
     {"node", PLANAR, HM_POINTS | HM_MESH, NULL, NO_CRS},
     {"poly", PLANAR, HM_POINTS | HM_LINES, NULL, NO_CRS},
     {"asc", GRID, HM_GRID, NULL, NO_CRS},
+    {"prj", CRS, HM_ANY, NULL, 0},
     {"xyz", XYZ, HM_POINTS | HM_GRID, NULL, NO_CRS},
     {"csv", CSV, HM_POINTS | HM_GRID, NULL, NO_CRS},
     {"gmt", GMT, HM_LINES, NULL, NO_CRS},
@@ -44,7 +45,7 @@ static const struct format formats[] = {
     {"wkt", FEATURES, HM_POINTS | HM_LINES, NULL, NO_CRS}};
 #define CHOICES                                                                                    \
     "text|binary|single|2dm|ugrid|geo|2d|gr3|fort14|slf|cli|vtk|vtu|msh|ply|tsh|medit|srhgeom|"    \
-    "ele|node|poly|asc|xyz|csv|gmt|ogrgmt|geojson|wkt"
+    "ele|node|poly|asc|prj|xyz|csv|gmt|ogrgmt|geojson|wkt"
 
 static struct job job;
 static int to;
@@ -127,6 +128,18 @@ static enum hm_err copy_object(struct hm_cli *cli, struct hm_header *h, struct h
     return err ? err : hm_copy_object(hm_cli_reader(cli), h, &job.product, 1, d);
 }
 
+/* The crs of the first object; the others have none but that. */
+static enum hm_err export_crs(struct hm_cli *cli, const struct hm_header *h, struct hm_diag *d)
+{
+    static bool written;
+    const char *crs = hm_header_get(h, "crs");
+    if (!crs)
+        hm_cli_die(cli, "%s: no crs is said", hm_reader_name(hm_cli_reader(cli)));
+    enum hm_err err = written ? HM_OK : hm_export_prj(crs, job.product, d);
+    written = true;
+    return err;
+}
+
 /* --- one object after the other --- */
 
 static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *left_out,
@@ -144,6 +157,8 @@ static enum hm_err convert(struct hm_cli *cli, struct hm_header *h, int64_t *lef
         return hmconv_table(&job, h, left_out, d);
     case GMT:
         return hmconv_lines(&job, d);
+    case CRS:
+        return export_crs(cli, h, d);
     case GRID:
         hmconv_say_columns(&job, h, 2, hmconv_band(&job, h) + 2);
         return hmconv_hold(&job, h, d);

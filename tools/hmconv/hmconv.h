@@ -26,6 +26,7 @@ enum way {
     XYZ,      /* tables, as they come */
     CSV,      /* with names */
     GMT,      /* lines, as they come */
+    CRS,      /* nothing but that */
     MESH,     /* one mesh, held */
     GRID,     /* one grid, held */
     FEATURES, /* all points and lines, held: for a GIS */

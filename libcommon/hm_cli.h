@@ -76,7 +76,7 @@ bool hm_cli_verbose(const struct hm_cli *cli);            /* -v */
 struct hm_format hm_cli_format(const struct hm_cli *cli); /* -b, -p */
 /* What --single means to a tool that has it: grids as f32le. Before the first hm_cli_writer. */
 void hm_cli_set_single(struct hm_cli *cli);
-const char *hm_cli_output(const struct hm_cli *cli);      /* -o, or "-" */
+const char *hm_cli_output(const struct hm_cli *cli); /* -o, or "-" */
 /* Another format than asked for by the common options; before the first hm_cli_writer. */
 void hm_cli_set_format(struct hm_cli *cli, struct hm_format format);
 const char *hm_cli_history(const struct hm_cli *cli);               /* "bsgrid 0.1 -d 5" */

@@ -46,7 +46,7 @@ UNIT      := $(patsubst tests/unit/%.c,$(B)/test/%,$(wildcard tests/unit/test_*.
 BENCH     := $(patsubst tests/bench/bench_%.cc,%,$(wildcard tests/bench/bench_*.cc))
 BENCH_SH  := $(patsubst tests/bench/bench_%.sh,%,$(wildcard tests/bench/bench_*.sh))
 # A target for each format that hmconv imports, all from one source.
-IMPORTED  := ugrid slf msh ply vtk 2d gr3 geojson wkt triangle
+IMPORTED  := $(shell sed -n 's/^    {"\([a-z0-9]*\)", hm_import_is_.*/\1/p' libcommon/hm_import.c)
 FUZZ      := $(B)/fuzz/fuzz_reader $(B)/fuzz/fuzz_tri $(IMPORTED:%=$(B)/fuzz/fuzz_import_%)
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))

@@ -60,6 +60,7 @@ struct hm_program {
     int needs; /* hm_kind bits it takes from its operands; others are dropped aloud */
     const struct hm_foreign *foreign; /* formats that it reads besides (hm_import), or NULL */
     bool degrees_ok;                  /* longitude and latitude are not refused */
+    bool converts;                    /* units: each object may have its own (hm_unit) */
     const char *without; /* letters of the common options that mean nothing to it: "bpK", NULL */
 };
 

@@ -132,23 +132,40 @@ static void note_units(struct hm_cli *cli, const struct hm_header *h)
     cli->units_said = cli->units_said || strcmp(unit, "m");
 }
 
+/* What the header adds to what was seen. A program that converts takes objects of different units,
+ * so these are none that all have. */
+static enum hm_err merge_header(struct hm_cli *cli, const struct hm_header *h, struct hm_diag *d)
+{
+    if (!cli->program->converts)
+        return hm_header_merge(&cli->seen, h, d);
+    struct hm_header unitless;
+    enum hm_err err = hm_header_copy(&unitless, h, d);
+    if (!err)
+        err = hm_header_set(&unitless, "units", NULL, d);
+    if (!err)
+        err = hm_header_merge(&cli->seen, &unitless, d);
+    hm_header_free(&unitless);
+    return err;
+}
+
 static void note_header(struct hm_cli *cli, const struct hm_header *h)
 {
     struct hm_diag d = {0};
+    const struct hm_program *program = cli->program;
     const char *name = hm_reader_name(cli->reader);
     enum hm_err err = HM_OK;
     if (!cli->seen.kind)
         err = hm_header_init(&cli->seen, h->kind, &d);
     if (!err)
-        err = hm_header_merge(&cli->seen, h, &d);
-    if (!err && !cli->program->degrees_ok)
+        err = merge_header(cli, h, &d);
+    if (!err && !program->degrees_ok)
         err = hm_header_need_metres(h, &d);
-    if (!err && !cli->program->degrees_ok)
+    if (!err && !program->degrees_ok && !program->converts)
         err = hm_header_need_one_unit(h, &d);
     if (err && !d.source[0])
         snprintf(d.source, sizeof d.source, "%s", name);
     hm_cli_check(cli, err, &d);
-    if (!cli->program->degrees_ok)
+    if (!program->degrees_ok && !program->converts)
         note_units(cli, h);
 }
 

@@ -1,4 +1,4 @@
-#include "hm_meshcheck.h"
+#include "hm_meshcheck_private.h"
 
 #include "hm_boxtree.h"
 #include "hm_elem.h"
@@ -195,10 +195,24 @@ static enum hm_err check_components(struct check *k, struct hm_diag *d)
     return HM_OK;
 }
 
+/* Can the boundary tell about overlaps (hm_meshcheck_plain)? */
+static bool is_orderly(const struct hm_meshcheck *c)
+{
+    return c->count[HM_FAULT_AREA] + c->count[HM_FAULT_CONCAVE] + c->count[HM_FAULT_EDGE] +
+               c->count[HM_FAULT_DUPLICATE] + c->count[HM_FAULT_TOUCH] ==
+           0;
+}
+
 static enum hm_err check_overlaps(struct check *k, struct hm_diag *d)
 {
     const struct hm_mesh *m = k->m;
     struct hm_boxtree *tree;
+    if (is_orderly(k->c)) {
+        bool plain;
+        enum hm_err failure = hm_meshcheck_plain(m, k->edge, k->nedges, &plain, d);
+        if (failure || plain)
+            return failure;
+    }
     struct hm_box *box = hm_alloc(m->nelems, sizeof *box);
     if (!box)
         return hm_fail_memory(d);

@@ -90,6 +90,23 @@ bool hm_plane_cross(const double *a, const double *b, const double *c, const dou
     return (cd_a > 0 && cd_b < 0) || (cd_a < 0 && cd_b > 0);
 }
 
+enum hm_ray hm_plane_ray(const double *p, const double *a, const double *b)
+{
+    double x = p[0], y = p[1];
+    if ((a[1] > y && b[1] > y) || (a[1] < y && b[1] < y))
+        return HM_RAY_MISSES;
+    if (a[1] == y && b[1] == y) {
+        bool on = (a[0] <= x && x <= b[0]) || (b[0] <= x && x <= a[0]);
+        return on ? HM_RAY_ON : HM_RAY_MISSES;
+    }
+    int side = hm_pred_orient(a, b, p);
+    if (side == 0)
+        return HM_RAY_ON;
+    /* p is left of it going up, right of it going down */
+    bool up = a[1] <= y && b[1] > y, down = b[1] <= y && a[1] > y;
+    return (up && side > 0) || (down && side < 0) ? HM_RAY_CROSSES : HM_RAY_MISSES;
+}
+
 double hm_plane_meeting(const double *a, const double *b, const double *c, const double *d)
 {
     int cd_a = hm_pred_orient(c, d, a), cd_b = hm_pred_orient(c, d, b);

@@ -34,6 +34,12 @@ bool hm_plane_meet_at(const double *a, const double *b, const double *c, const d
 /* Do they cross, each with an end on both sides of the other, exactly? */
 bool hm_plane_cross(const double *a, const double *b, const double *c, const double *d);
 
+/* Does the ray from p to the right cross the segment a–b? Of ends at the height of p one counts and
+ * the other does not, so that a ring is crossed an odd number of times from inside, and an even
+ * number from outside. Exact. */
+enum hm_ray { HM_RAY_MISSES, HM_RAY_CROSSES, HM_RAY_ON /* p lies on a–b */ };
+enum hm_ray hm_plane_ray(const double *p, const double *a, const double *b);
+
 /* Where a–b meets c–d, as a part of a–b, 0 .. 1; exactly 0 or 1 when a or b lies on c–d. For
  * segments that meet; of an overlap the place nearest to a. */
 double hm_plane_meeting(const double *a, const double *b, const double *c, const double *d);

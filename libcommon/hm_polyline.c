@@ -115,21 +115,10 @@ int hm_polygon_side(const struct hm_line *ring, double x, double y)
     const double p[2] = {x, y};
     bool inside = false;
     for (size_t k = 0; k < ring->n; k++) {
-        const double *a = hm_polyline_from(ring, k), *b = hm_polyline_to(ring, k);
-        if ((a[1] > y && b[1] > y) || (a[1] < y && b[1] < y))
-            continue;
-        if (a[1] == y && b[1] == y) {
-            if ((a[0] <= x && x <= b[0]) || (b[0] <= x && x <= a[0]))
-                return 0;
-            continue;
-        }
-        int side = hm_pred_orient(a, b, p);
-        if (side == 0)
+        enum hm_ray c = hm_plane_ray(p, hm_polyline_from(ring, k), hm_polyline_to(ring, k));
+        if (c == HM_RAY_ON)
             return 0;
-        /* a ray to the right crosses the piece when p is left of it going up, right going down */
-        bool up = a[1] <= y && b[1] > y, down = b[1] <= y && a[1] > y;
-        if ((up && side > 0) || (down && side < 0))
-            inside = !inside;
+        inside ^= c == HM_RAY_CROSSES;
     }
     return inside ? 1 : -1;
 }

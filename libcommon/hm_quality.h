@@ -1,75 +1,44 @@
-/* hm_quality: what is known about the quality of a mesh, as measures with names, judged by
- * criteria, and told to people (text) or programs (JSON). Layer 6.
- */
+/* hm_quality: all that is known about the quality of one mesh. Layer 6. */
 #ifndef HM_QUALITY_H
 #define HM_QUALITY_H
 
+#include "hm_fidelity.h"
 #include "hm_meshcheck.h"
 #include "hm_meshstat.h"
-#include "hm_residual.h"
-#include "hm_writer.h"
+#include "hm_survey.h"
+#include "hm_zone.h"
 
-enum { HM_QUALITY_WORST = 10 };
+/* What strata of measurements go by. */
+enum hm_strata { HM_STRATA_NONE, HM_STRATA_CLASS, HM_STRATA_REGION, HM_STRATA_ZONE };
 
-/* A sample of the measurements: one row of the paper's Table 2. */
-struct hm_sample {
-    double percent;
-    struct hm_residuals residuals;
-};
-
+/* Places are in the coordinates of the mesh, all else in metres whatever its units. */
 struct hm_quality {
-    const struct hm_mesh *mesh; /* the caller's */
-    double thresholds[2];       /* of the classes, metres */
-    int64_t seed;               /* of the samples */
-    bool surveyed;              /* measurements were given; all down to `worst` is about them */
-    int64_t points;             /* all measurements */
-    int64_t heightless;         /* without z */
-    int64_t outside;            /* not on the mesh, its border counted as on */
-    int64_t unknown;            /* on the mesh, where its nodes have no height */
-    struct hm_sample *sample;   /* owned; the last one holds all compared points */
-    size_t nsamples;
-    struct hm_residual worst[HM_QUALITY_WORST]; /* largest |r| first, of equals the earlier */
-    size_t nworst;
+    struct hm_mesh mesh;
+    struct hm_walk *walk;    /* of the mesh */
+    double metres, z_metres; /* of a unit of its x and y, and of z */
+    struct hm_survey survey;
+    double survey_error; /* RMSE of the measurements, metres; 0: not known */
+    enum hm_strata strata;
+    const struct hm_zones *zones; /* of HM_STRATA_ZONE; the caller's */
+    bool waved;                   /* a depth for time steps was given: */
+    double depth, velocity;       /* m, m/s */
     struct hm_meshstat shape;
     struct hm_meshcheck check;
+    struct hm_fidelity lines;
+    struct hm_rings *holes; /* of the mesh; NULL when it has none, or its edges are faulty */
 };
 
-/* Samples of n percentages, and all; the rest of q is cleared. */
-enum hm_err hm_quality_init(struct hm_quality *q, const double *percent, size_t n, int64_t seed,
-                            const double thresholds[2], struct hm_diag *d);
+/* Check and measure the mesh that stands in q, with its units and the water for time steps; what
+ * hm_quality_place needs is there then. */
+enum hm_err hm_quality_examine(struct hm_quality *q, struct hm_diag *d);
 void hm_quality_free(struct hm_quality *q);
 
-/* Count in a residual; ordinal is the number of its point among all measurements, from 0. */
-void hm_quality_add(struct hm_quality *q, struct hm_residual r, int64_t ordinal);
+/* Where a place is, by threads that share q and have a hint each (hm_walk_element): its element, or
+ * -1, and what the survey calls it. */
+int64_t hm_quality_place(const struct hm_quality *q, double x, double y, int32_t *hint,
+                         enum hm_survey_place *place);
 
-/* --- criteria --- */
-
-/* `rmse<=0.15`: measure, comparison (< <= > >=), bound. `valid` alone: a measure that is not 0. */
-struct hm_criterion {
-    int measure;
-    int comparison;
-    double bound;
-    bool met;     /* hm_quality_judge writes */
-    double value; /* these two; NaN (never met) when there is nothing to measure */
-};
-
-/* Criteria with commas between. HM_EARG names the mistake, and for an unknown measure all that
- * there are. *list is malloc'd. */
-enum hm_err hm_criteria_parse(const char *text, struct hm_criterion **list, size_t *n,
-                              struct hm_diag *d);
-
-/* Are all met? */
-bool hm_quality_judge(const struct hm_quality *q, struct hm_criterion *list, size_t n);
-
-/* The criterion as text: "rmse <= 0.15 m". */
-void hm_criterion_print(const struct hm_criterion *c, char *text, size_t size);
-
-/* --- reports --- */
-
-/* `list` holds the criteria that the user asked for, judged. */
-enum hm_err hm_quality_text(const struct hm_quality *q, const struct hm_criterion *list, size_t n,
-                            struct hm_writer *w, struct hm_diag *d);
-enum hm_err hm_quality_json(const struct hm_quality *q, const struct hm_criterion *list, size_t n,
-                            struct hm_writer *w, struct hm_diag *d);
+/* The name of a stratum: class 2, region 7, a zone's own. */
+void hm_quality_stratum(const struct hm_quality *q, int64_t key, char *name, size_t size);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { FINE_BINS = 100000, COARSE_BINS = 100000 };
 static const double FINE = 1e4, COARSE = 10; /* bins a metre */
@@ -25,18 +26,15 @@ static uint64_t mix(uint64_t z)
     return z ^ (z >> 31);
 }
 
-bool hm_residual_sampled(uint64_t seed, uint64_t ordinal, double percent)
+double hm_residual_lot(uint64_t seed, uint64_t ordinal)
 {
     uint64_t hash = mix(mix(seed) + (ordinal + 1) * 0x9e3779b97f4a7c15);
-    return (double)(hash >> 11) * 0x1p-53 * 100 < percent;
+    return (double)(hash >> 11) * 0x1p-53 * 100;
 }
 
-enum hm_err hm_residuals_init(struct hm_residuals *s, const double thresholds[2], double bound,
-                              struct hm_diag *d)
+void hm_residuals_init(struct hm_residuals *s, const double thresholds[2], double bound)
 {
     *s = (struct hm_residuals){.bound = bound, .thresholds = {thresholds[0], thresholds[1]}};
-    s->bins = hm_alloc0(FINE_BINS + COARSE_BINS, sizeof *s->bins);
-    return s->bins ? HM_OK : hm_fail_memory(d);
 }
 
 void hm_residuals_free(struct hm_residuals *s)
@@ -61,41 +59,72 @@ static double bin_end(size_t bin)
     return FINE_BINS / FINE + (double)(bin - FINE_BINS + 1) / COARSE;
 }
 
-void hm_residuals_add(struct hm_residuals *s, struct hm_residual r)
+static bool reach_bin(struct hm_residuals *s, size_t bin)
 {
-    if (s->n++ == 0) {
+    size_t cap = s->nbins;
+    if (bin < s->nbins)
+        return true;
+    if (!hm_grow(&s->bins, &cap, bin + 1, sizeof *s->bins))
+        return false;
+    memset(s->bins + s->nbins, 0, (cap - s->nbins) * sizeof *s->bins);
+    s->nbins = cap;
+    return true;
+}
+
+/* Mean and sums of powers of what is off it, without sums that cancel (Welford 1962; Terriberry
+ * 2007 for the third and fourth). */
+static void add_moments(struct hm_residuals *s, double r)
+{
+    double n = (double)s->n, off = r - s->mean, part = off / n, part2 = part * part;
+    double term = off * part * (n - 1);
+    s->mean += part;
+    s->m4 += term * part2 * (n * n - 3 * n + 3) + 6 * part2 * s->m2 - 4 * part * s->m3;
+    s->m3 += term * part * (n - 2) - 3 * part * s->m2;
+    s->m2 += term;
+}
+
+enum hm_err hm_residuals_add(struct hm_residuals *s, struct hm_residual r, struct hm_diag *d)
+{
+    double size = fabs(r.r);
+    size_t bin = bin_of(size);
+    if (!reach_bin(s, bin))
+        return hm_fail_memory(d);
+    if (s->n++ == 0)
         s->least = s->most = r;
-        s->shift = r.r;
-    }
     if (r.r < s->least.r)
         s->least = r;
     if (r.r > s->most.r)
         s->most = r;
-    double size = fabs(r.r), off = r.r - s->shift;
     s->count[hm_residual_classify(r.r, s->thresholds)]++;
     s->within += size <= s->bound;
-    s->sum += off;
-    s->sum2 += off * off;
-    s->bins[bin_of(size)]++;
+    s->bins[bin]++;
+    add_moments(s, r.r);
+    return HM_OK;
 }
 
 double hm_residuals_mean(const struct hm_residuals *s)
 {
-    return s->n ? s->shift + s->sum / (double)s->n : NAN;
+    return s->n ? s->mean : NAN;
 }
 
 double hm_residuals_sigma(const struct hm_residuals *s)
 {
-    if (!s->n)
-        return NAN;
-    double n = (double)s->n, mean = s->sum / n;
-    double variance = s->sum2 / n - mean * mean;
-    return variance > 0 ? sqrt(variance) : 0;
+    return s->n ? sqrt(s->m2 / (double)s->n) : NAN;
 }
 
 double hm_residuals_rmse(const struct hm_residuals *s)
 {
     return hypot(hm_residuals_mean(s), hm_residuals_sigma(s));
+}
+
+double hm_residuals_skew(const struct hm_residuals *s)
+{
+    return s->m2 > 0 ? sqrt((double)s->n) * s->m3 / (s->m2 * sqrt(s->m2)) : NAN;
+}
+
+double hm_residuals_kurtosis(const struct hm_residuals *s)
+{
+    return s->m2 > 0 ? (double)s->n * s->m4 / (s->m2 * s->m2) - 3 : NAN;
 }
 
 static double percent_of(const struct hm_residuals *s, int64_t count)
@@ -119,7 +148,7 @@ double hm_residuals_percentile(const struct hm_residuals *s, double percent)
         return NAN;
     double wanted = percent / 100 * (double)s->n, largest = fmax(fabs(s->least.r), fabs(s->most.r));
     uint64_t seen = 0;
-    for (size_t bin = 0; bin + 1 < FINE_BINS + COARSE_BINS; bin++) {
+    for (size_t bin = 0; bin < s->nbins && bin + 1 < FINE_BINS + COARSE_BINS; bin++) {
         seen += s->bins[bin];
         if (seen > 0 && (double)seen >= wanted)
             return fmin(bin_end(bin), largest);

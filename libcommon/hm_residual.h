@@ -20,11 +20,9 @@ enum hm_residual_class {
  * class; none for NaN. */
 enum hm_residual_class hm_residual_classify(double residual, const double thresholds[2]);
 
-/* Does the point with that ordinal belong to a sample of `percent`? Each point has one number in
- * [0, 100) by seed and ordinal, so a smaller sample lies within every larger one, and 100 takes
- * all.
- */
-bool hm_residual_sampled(uint64_t seed, uint64_t ordinal, double percent);
+/* The number of a point in [0, 100), by seed and ordinal. A sample of p percent takes the points
+ * under p, so a smaller sample lies within every larger one, and 100 takes all. */
+double hm_residual_lot(uint64_t seed, uint64_t ordinal);
 
 /* A residual and where it was. */
 struct hm_residual {
@@ -38,21 +36,26 @@ struct hm_residuals {
     double bound;         /* metres */
     double thresholds[2]; /* metres */
     struct hm_residual least, most;
-    double shift, sum, sum2; /* of r - shift, where shift is the first residual */
+    double mean, m2, m3, m4; /* sums of powers of r - mean */
     uint64_t *bins;          /* |r|: 0.1 mm each up to 10 m, then 0.1 m each */
+    size_t nbins;
 };
 
-enum hm_err hm_residuals_init(struct hm_residuals *s, const double thresholds[2], double bound,
-                              struct hm_diag *d);
+void hm_residuals_init(struct hm_residuals *s, const double thresholds[2], double bound);
 void hm_residuals_free(struct hm_residuals *s);
 
-/* Add a residual that is a finite number. */
-void hm_residuals_add(struct hm_residuals *s, struct hm_residual r);
+/* Add a residual that is a finite number. HM_ENOMEM. */
+enum hm_err hm_residuals_add(struct hm_residuals *s, struct hm_residual r, struct hm_diag *d);
 
 /* All of these are NaN when there is no residual. rmse² = mean² + sigma²: sigma divides by n. */
 double hm_residuals_mean(const struct hm_residuals *s);
 double hm_residuals_sigma(const struct hm_residuals *s);
 double hm_residuals_rmse(const struct hm_residuals *s);
+
+/* Third and fourth standardised moment, the latter less 3: 0 for the normal distribution; NaN when
+ * sigma is 0. */
+double hm_residuals_skew(const struct hm_residuals *s);
+double hm_residuals_kurtosis(const struct hm_residuals *s);
 
 /* The share, in percent, of a class, and of |r| <= bound. */
 double hm_residuals_share(const struct hm_residuals *s, enum hm_residual_class c);

@@ -21,5 +21,7 @@ enum hm_role hm_role_of(const char *attrs)
         return HM_ROLE_NET;
     if (hm_attr_get(attrs, "move", value, sizeof value))
         return HM_ROLE_MOVE;
+    if (hm_attr_get(attrs, "zone", value, sizeof value))
+        return HM_ROLE_ZONE;
     return HM_ROLE_BREAKLINE;
 }

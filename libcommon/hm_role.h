@@ -11,7 +11,8 @@ enum hm_role {
     HM_ROLE_REGION,    /* region=N: material and size of an area */
     HM_ROLE_STRING,    /* string=NAME: a boundary string for the solver */
     HM_ROLE_NET,       /* net=NAME: control points of a surface, for a picture */
-    HM_ROLE_MOVE       /* move=NAME: a control point's way to its breakline, for a picture */
+    HM_ROLE_MOVE,      /* move=NAME: a control point's way to its breakline, for a picture */
+    HM_ROLE_ZONE       /* zone=NAME: a part of the ground that quality judges by itself */
 };
 
 enum hm_role hm_role_of(const char *attrs);

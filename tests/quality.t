@@ -1,22 +1,7 @@
 #!/bin/sh
 # quality: every statistic against a case worked by hand and against awk over the residuals.
 . "${0%/*}/tap.sh"
-
-# value KEY [N]: the N-th (default: last) number behind "KEY": in report.json
-value() {
-    awk -v key="\"$1\":" -v n="${2:-0}" '$1 == key { seen++; v = $2; if (seen == n) exit }
-        END { sub(/,$/, "", v); print v }' report.json
-}
-
-# measure KEY: the value in the object "KEY": of report.json
-measure() {
-    awk -v key="\"$1\":" '$1 == key { getline; sub(/,$/, "", $2); print $2; exit }' report.json
-}
-
-# near NAME GOT WANT TOLERANCE
-near() {
-    true_that "$1" "(($2) - ($3)) <= ($4) && (($3) - ($2)) <= ($4)"
-}
+. "$TESTS/report.sh"
 
 # --- by hand: a square of 10 m, z rising from 1 to 2 with y, and a triangle beside it ---
 cat >square.hm <<'END'
@@ -48,25 +33,25 @@ near "given" "$(value given)" 7 0
 near "without height" "$(value without_height)" 1 0
 near "outside" "$(value outside)" 1 0
 near "compared" "$(value compared)" 5 0
-near "mean" "$(value mean)" -0.05 1e-15
-near "sigma" "$(value sigma)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5 - 0.0025)" 1e-15
-near "RMSE" "$(value rmse)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
-near "1.96 RMSE" "$(value rmse196)" "1.96 * sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
-near "95th percentile" "$(value p95)" 0.375 1e-4
-near "green" "$(value green)" 40 1e-12
-near "yellow" "$(value yellow)" 40 1e-12
-near "red" "$(value red)" 20 1e-12
-near "within 0.294 m" "$(value within)" 80 1e-12
+near "mean" "$(all mean)" -0.05 1e-15
+near "sigma" "$(all sigma)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5 - 0.0025)" 1e-15
+near "RMSE" "$(all rmse)" "sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
+near "1.96 RMSE" "$(all rmse196)" "1.96 * sqrt((0.125^2 + 0.25^2 + 0.375^2) / 5)" 1e-15
+near "95th percentile" "$(all p95)" 0.375 1e-4
+near "green" "$(all green)" 40 1e-12
+near "yellow" "$(all yellow)" 40 1e-12
+near "red" "$(all red)" 20 1e-12
+near "within 0.294 m" "$(all within)" 80 1e-12
 near "area" "$(value area)" 150 1e-12
-near "neighbours" "$(value neighbours)" 1 0
+near "neighbours" "$(measure area_ratio count)" 1 0
 true_that "nodes $(value nodes), triangles $(value triangles), quadrilaterals $(value quadrilaterals)" \
     "$(value nodes) == 5 && $(value triangles) == 1 && $(value quadrilaterals) == 1"
-near "smallest angle, a right isosceles triangle" "$(measure smallest_angle)" 45 1e-12
-near "largest angle" "$(measure largest_angle)" 90 1e-12
-near "smallest area" "$(measure smallest_area)" 50 1e-12
-near "largest area" "$(measure largest_area)" 100 1e-12
-near "edge ratio" "$(measure largest_edge_ratio)" "sqrt(2)" 1e-12
-near "area ratio of the two" "$(measure largest_area_ratio)" 2 1e-12
+near "smallest angle, a right isosceles triangle" "$(measure smallest_angle least)" 45 1e-12
+near "largest angle" "$(measure largest_angle most)" 90 1e-12
+near "smallest area" "$(measure area least)" 50 1e-12
+near "largest area" "$(measure area most)" 100 1e-12
+near "edge ratio" "$(measure edge_ratio most)" "sqrt(2)" 1e-12
+near "area ratio of the two" "$(measure area_ratio most)" 2 1e-12
 cat >want <<'END'
 1 5 1.625 -0.125 2
 5 5 1.5 0 1
@@ -86,7 +71,9 @@ ok "the text has the row of Table 2" grep -Eq \
     '^  all +5 +40.0% +40.0% +20.0% +-0.0500 +0.2031 +0.2092$' report.txt
 ok "the text has the extremes" sh -c "grep -q 'lowest .*-0.3750 m  at 10.000 5.000' report.txt &&
     grep -q 'highest .*0.2500 m  at 12.000 0.000' report.txt"
-ok "the verdicts" sh -c "grep -c '^  miss' report.txt | grep -qx 3"
+sed -n '/^Verdicts/,/^$/s/^  \([a-z]*\)  \(.*[^ ]\)  *[-0-9.]* [m%]*  *[A-Zartp].*/\1/p' report.txt | tr '\n' ' ' >got
+printf 'miss miss miss miss miss warn warn warn pass ' >want
+same "the verdicts: five points, RMSE 0.21 m, skew -0.3" want got
 sed 's/^#name.*/#name a "b" \\c/' square.hm >named.hm
 quality -J named.hm seven.xyz | grep '"name"' >got
 cat >want <<'END'
@@ -94,7 +81,7 @@ cat >want <<'END'
 END
 same "JSON escapes quotes and backslashes" want got
 quality -t 0.2,0.4 -J -o report.json square.hm seven.xyz
-true_that "other thresholds: 60 % green, no red" "$(value green) == 60 && $(value red) == 0"
+true_that "other thresholds: 60 % green, no red" "$(all green) == 60 && $(all red) == 0"
 
 # --- a wavy mesh of quadrilaterals and triangles, and 30,000 points: awk as a second opinion ---
 awk 'BEGIN {
@@ -121,19 +108,24 @@ awk '!/^#/ { n++; if ($3 == "nan") none++; else if ($4 == "nan") out++
     END { print n, none, out, m, s / m, sqrt(q / m - (s / m) ^ 2), sqrt(q / m), 100 * g / m, 100 * y / m,
         100 * d / m, 100 * w / m, most >"sums" }' CONVFMT=%.15g OFMT=%.15g residuals.hm | LC_ALL=C sort -g >sorted
 read -r n none out m mean sigma rmse green yellow red within most <sums
+awk -v mean="$mean" '!/^#/ && $4 != "nan" { d = $4 - mean; n++; b += d * d; c += d ^ 3; e += d ^ 4 }
+    END { print c / n / (b / n) ^ 1.5, e / n / (b / n) ^ 2 - 3 }' OFMT=%.15g residuals.hm >moments
 p95=$(awk -v m="$m" 'NR >= 0.95 * m { print; exit }' sorted)
 echo "$n $none $out $m" >want
 echo "$(value given) $(value without_height) $(value outside) $(value compared)" >got
 same "awk: counts" want got
 true_that "some are outside" "$out > 100"
-near "awk: mean" "$(value mean)" "$mean" 1e-12
-near "awk: sigma" "$(value sigma)" "$sigma" 1e-11
-near "awk: RMSE" "$(value rmse)" "$rmse" 1e-11
-near "awk: green" "$(value green)" "$green" 1e-9
-near "awk: yellow" "$(value yellow)" "$yellow" 1e-9
-near "awk: red" "$(value red)" "$red" 1e-9
-near "awk: within 0.294 m" "$(value within)" "$within" 1e-9
-true_that "awk: 95 % within, up to a bin of 0.1 mm" "$(value p95) >= $p95 && $(value p95) <= $p95 + 1e-4"
+near "awk: mean" "$(all mean)" "$mean" 1e-12
+near "awk: sigma" "$(all sigma)" "$sigma" 1e-11
+near "awk: RMSE" "$(all rmse)" "$rmse" 1e-11
+near "awk: green" "$(all green)" "$green" 1e-9
+near "awk: yellow" "$(all yellow)" "$yellow" 1e-9
+near "awk: red" "$(all red)" "$red" 1e-9
+near "awk: within 0.294 m" "$(all within)" "$within" 1e-9
+true_that "awk: 95 % within, up to a bin of 0.1 mm" "$(all p95) >= $p95 && $(all p95) <= $p95 + 1e-4"
+read -r skew kurtosis <moments
+near "awk: skew" "$(all skew)" "$skew" 1e-9
+near "awk: kurtosis" "$(all kurtosis)" "$kurtosis" 1e-9
 near "the worst residual" "$(awk '/"worst_residuals"/ { on = 1 }
     on && $1 == "\"residual\":" { sub(/,/, "", $2); printf "%.17g", $2 < 0 ? -$2 : $2; exit }' report.json)" "$most" 1e-12
 near "a sample of 100 % is all" "$(value points 4)" "$(value points 5)" 0
@@ -181,12 +173,31 @@ awk 'BEGIN { n = 0 }
         u30 += least < 30; total += area }
     END { printf "%.15g %.15g %.15g %.15g %d %.15g\n", smallest, largest, ratio, least_area, u30, total }' wave.hm >shapes
 read -r smallest largest ratio least_area under30 total <shapes
-near "awk: smallest angle" "$(measure smallest_angle)" "$smallest" 1e-6
-near "awk: largest angle" "$(measure largest_angle)" "$largest" 1e-6
-near "awk: smallest area" "$(measure smallest_area)" "$least_area" 1e-6
-near "awk: edge ratio" "$(measure largest_edge_ratio)" "$ratio" 1e-6
-near "awk: angles under 30" "$(value angle_under_30)" "$under30" 0
+near "awk: smallest angle" "$(measure smallest_angle least)" "$smallest" 1e-6
+near "awk: largest angle" "$(measure largest_angle most)" "$largest" 1e-6
+near "awk: smallest area" "$(measure area least)" "$least_area" 1e-6
+near "awk: edge ratio" "$(measure edge_ratio most)" "$ratio" 1e-6
+near "awk: angles under 30" "$(under smallest_angle 30)" "$under30" 0
 near "awk: area of all" "$(value area)" "$total" 1e-4
+
+# a bilinear quadrilateral: its own map tells places and heights
+cat >quad.hm <<'END'
+#hm 1 mesh text
+#data
+v 1 2 3 0 0
+v 9 1 5 0 0
+v 12 8 -2 0 0
+v 2 6 7 0 0
+q 0 1 2 3 0
+#end
+END
+awk -v OFMT=%.17g 'BEGIN { for (s = 0; s <= 1; s += 0.0625) for (t = 0; t <= 1; t += 0.0625) {
+    a = (1 - s) * (1 - t); b = s * (1 - t); c = s * t; d = (1 - s) * t
+    print a + 9 * b + 12 * c + 2 * d, 2 * a + b + 8 * c + 6 * d, 3 * a + 5 * b - 2 * c + 7 * d } }' >map.xyz
+ok "a quadrilateral" quality -J -o report.json quad.hm map.xyz
+near "its points inside are on the mesh" "$(value compared) >= 225" 1 0
+near "they have its heights" "$(all p95)" 0 2e-4
+true_that "to rounding" "$(all rmse) < 1e-14"
 
 # --- order, threads, encodings: the same bytes ---
 quality wave.hm many.xyz >report.txt
@@ -215,7 +226,149 @@ if need_data danube_deggendorf/reference_mesh_triangles.txt.gz; then
     echo "47543 93209 0" >want
     echo "$(value compared) $(value triangles) $(value outside)" >got
     same "every point of the Danube is on its mesh" want got
-    true_that "and on its height" "$(value rmse) < 1e-9 && $(value p95) < 1e-9"
+    true_that "and on its height" "$(all rmse) < 1e-9 && $(all p95) < 1e-9"
+fi
+
+# --- where measurements lie: a mesh of 3 x 3 cells with a hole in the middle ---
+awk 'BEGIN { print "#hm 1 mesh text\n#data"
+    for (j = 0; j < 4; j++) for (i = 0; i < 4; i++) print "v", i, j, i, 0, 0
+    for (j = 0; j < 3; j++) for (i = 0; i < 3; i++) { a = 4 * j + i
+        if (i != 1 || j != 1) print "q", a, a + 1, a + 5, a + 4, (i < 2 ? 1 : 2) }
+    print "#end" }' >ring.hm
+cat >places.xyz <<'END'
+1.5 1.5 1
+1.25 1.75 1
+-1 1.5 0
+9 9 0
+0 0.5 0
+1 1 1
+3 3 3
+1.5 2 1.5
+0.5 0.5 0.5
+1 0.5 1
+2 0.25 2
+END
+quality -J -o report.json ring.hm places.xyz
+echo "11 4 2 7 4" >want
+echo "$(value given) $(value outside) $(value in_holes) $(value compared) $(value on_border)" >got
+same "given, outside, of them in the hole, compared, of them on a border" want got
+
+# --- strata ---
+# residuals: class 2 -0.5 and 0, class 9 0.25; regions 1 and 2 part at x = 2
+cat >classed.hm <<'END'
+#hm 1 points text
+#fields x y z class
+#data
+0.5 0.5 1 2
+2.5 0.5 2.5 2
+2.5 2.5 2.25 9
+9 9 0 9
+#end
+END
+stratum() { # KEY FIELD
+    awk -v key="\"$1\"," -v field="\"$2\":" '$1 == "\"stratum\":" { on = $2 == key }
+        on && $1 == field { sub(/,$/, "", $2); print $2; exit }' report.json
+}
+quality -J --by class -o report.json ring.hm classed.hm
+echo "2 -0.25 1 0.25" >want
+echo "$(stratum 2 points) $(stratum 2 mean) $(stratum 9 points) $(stratum 9 mean)" >got
+same "by class of the points" want got
+quality -J --by region -o report.json ring.hm classed.hm
+echo "1 -0.5 2 0.125" >want
+echo "$(stratum 1 points) $(stratum 1 mean) $(stratum 2 points) $(stratum 2 mean)" >got
+same "by material of the mesh" want got
+cat >zones.txt <<'END'
+> zone=dike closed=1
+0 0 0
+3 0 0
+3 1 0
+0 1 0
+> zone=berm closed=1
+2 2 0
+3 2 0
+3 3 0
+2 3 0
+END
+quality -J --by zone -o report.json ring.hm zones.txt classed.hm
+echo "2 -0.25 1 0.25" >want
+echo "$(stratum dike points) $(stratum dike mean) $(stratum berm points) $(stratum berm mean)" >got
+same "by polygon" want got
+quality --by zone ring.hm zones.txt classed.hm >report.txt
+for order in "classed.hm ring.hm zones.txt" "classed.hm zones.txt ring.hm" "zones.txt ring.hm classed.hm"; do
+    quality --by zone $order >other.txt
+    same "zones in any order: $order" report.txt other.txt
+done
+ok "the text has them" grep -Eq '^  berm +1 +0.0% +100.0%' report.txt
+must_fail "a zone behind the points" 2 'must come before' quality --by zone ring.hm zones.txt classed.hm zones.txt
+must_fail "no zone" 2 'no line zone=NAME' quality --by zone ring.hm classed.hm
+must_fail "points without class" 2 "without a field 'class'" quality --by class ring.hm places.xyz
+printf '> zone=open\n0 0 0\n1 0 0\n1 1 0\n' >open.txt
+must_fail "a zone that is not closed" 2 'zone=open is not closed' quality --by zone ring.hm open.txt classed.hm
+
+# --- units: feet against metres; 0.3048 m of x is one foot ---
+awk '/^v/ { print $1, $2 / 0.3048, $3 / 0.3048, $4 / 0.3048, $5, $6; next }
+    /^#data/ { print "#units ft ft ft" } { print }' OFMT=%.17g CONVFMT=%.17g wave.hm >feet.hm
+quality -J -o report.json wave.hm many.xyz
+rmse=$(all rmse) p95=$(all p95) area=$(value area) compared=$(value compared)
+quality -J -o report.json feet.hm many.xyz
+near "a mesh in feet: RMSE in metres" "$(all rmse)" "$rmse" 1e-9
+near "95 % of |r|" "$(all p95)" "$p95" 1.01e-4
+near "area in square metres" "$(value area)" "$area" 1e-6
+near "as many compared" "$(value compared)" "$compared" 0
+awk 'BEGIN { print "#hm 1 points text\n#units m m us-ft\n#data" } { print $1, $2, $3 * 3937 / 1200 }
+    END { print "#end" }' OFMT=%.17g CONVFMT=%.17g many.xyz >survey_feet.hm
+quality -J -o report.json -r mixed.hm wave.hm survey_feet.hm
+near "points with heights in survey feet" "$(all rmse)" "$rmse" 1e-9
+ok "the residual stream is in the units of the mesh" sh -c 'hmconv --info mixed.hm && ! grep "#units.*ft" mixed.hm'
+sed 's/#units ft ft ft/#units ell ell ell/' feet.hm >ells.hm
+must_fail "a unit nobody knows" 2 "the unit 'ell' is not known" quality ells.hm many.xyz
+
+# --- meshes of other programs: every format that hmconv reads ---
+awk '/^q/ { print "t", $2, $3, $4, 1; print "t", $2, $4, $5, 1; next } /^t/ { $NF = 1 } { print }' wave.hm |
+    sed 's/^\(v [^ ]*\)\.\([0-9]\)[0-9]* /\1.\2 /' | awk '/^v/ { $2 = sprintf("%.2f", $2 - 500000); $3 = sprintf("%.2f", $3 - 5970000); $4 = sprintf("%.3f", $4) } { print }' >other.hm
+awk '{ print $1 - 500000, $2 - 5970000, $3 }' CONVFMT=%.3f OFMT=%.3f many.xyz >near.xyz
+quality -J -o report.json other.hm near.xyz
+rmse=$(all rmse) compared=$(value compared) elements=$(value triangles)
+true_that "triangles to compare with" "$elements > 900 && $compared > 25000"
+for format in 2dm ugrid 2d gr3 fort14 slf msh ply vtk; do
+    hmconv --quiet -t $format -o other.$format other.hm
+    quality -J -o report.json other.$format near.xyz
+    near "$format: RMSE" "$(all rmse)" "$rmse" 1e-6
+    near "$format: elements" "$(value triangles)" "$elements" 0
+done
+
+# --- two meshes side by side ---
+awk '/^v/ { $4 += 0.125 } { print }' wave.hm >higher.hm
+quality --compare higher.hm -c 'rmse<=0.5' wave.hm many.xyz >report.txt
+side() { awk -v name="$1" -v k="$2" '/^Side by side/ { on = 1 } on && $1 == name { print $(NF - 3 + k); exit }' report.txt; }
+near "the other is higher" "$(side mean 3)" 0.125 1e-4
+near "as this one is" "$(side mean 1)" "$(awk '/^  all / { print $6; exit }' report.txt)" 1e-4
+near "the same angles" "$(side minangle 3)" 0 0
+quality wave.hm many.xyz | sed '1,/^Histograms/!d' >alone.txt
+ok "the first report is as without" sh -c "head -n \$(wc -l <alone.txt) report.txt | cmp - alone.txt"
+quality -J --compare higher.hm -o report.json wave.hm many.xyz
+ok "and in JSON" grep -q '^  "other": {' report.json
+must_fail "compared with no mesh" 2 'no mesh in many.xyz' quality --compare many.xyz wave.hm many.xyz
+
+# --- the schema ---
+if python3 -c 'import jsonschema' 2>/dev/null; then
+    valid() {
+        python3 - "$TESTS/../man/quality.schema.json" report.json <<'END'
+import json, sys, jsonschema
+schema, report = (json.load(open(name)) for name in sys.argv[1:])
+jsonschema.Draft7Validator.check_schema(schema)
+jsonschema.Draft7Validator(schema).validate(report)
+END
+    }
+    ok "a report with another is as the schema says" valid
+    quality -J --by zone --courant 2,1 --survey-error 0.03 -c 'rmse<=1,valid' -o report.json ring.hm zones.txt classed.hm
+    ok "one with strata, time steps and criteria too" valid
+    sed 's/"compared": /"compared_": /' report.json >other.json && mv other.json report.json
+    ok "a key that is not in the schema is noticed" sh -c '! python3 -c "
+import json, jsonschema
+jsonschema.validate(json.load(open(\"report.json\")), json.load(open(\"$1\")))" 2>/dev/null' - "$TESTS/../man/quality.schema.json"
+else
+    skip "python3-jsonschema is not there"
 fi
 
 # --- criteria ---

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 enum to { UTM, TM, ENU, SAME };
@@ -55,57 +54,27 @@ static const struct hm_program program = {.name = "georef",
 
 /* --- units --- */
 
-static const struct unit units[] = {{"m", 1, 1}, {"ft", 381, 1250}, {"us-ft", 1200, 3937}};
-static const struct unit degree = {"degree", 1, 1};
-
-/* The unit of a name, of which headers of others have several; NULL when it is none. */
-static const struct unit *find_unit(const char *name, size_t n)
-{
-    static const char *const others[][6] = {{"m", "metre", "metres", "meter", "meters", NULL},
-                                            {"ft", "foot", "feet", "ift", NULL},
-                                            {"us-ft", "usft", "ftus", "us_survey_foot", NULL}};
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        for (size_t k = 0; others[i][k]; k++)
-            if (strlen(others[i][k]) == n && !strncasecmp(others[i][k], name, n))
-                return &units[i];
-    return NULL;
-}
+static const struct hm_unit degree = {"degree", 1, 1};
 
 /* `ft` or `ft/m`. */
 static void parse_units(struct hm_cli *cli, const char *option, const char *text,
-                        const struct unit **xy, const struct unit **z)
+                        const struct hm_unit **xy, const struct hm_unit **z)
 {
     size_t n = strcspn(text, "/");
-    *xy = find_unit(text, n);
-    *z = text[n] ? find_unit(text + n + 1, strlen(text + n + 1)) : *xy;
+    *xy = hm_unit_find(text, n);
+    *z = text[n] ? hm_unit_find(text + n + 1, strlen(text + n + 1)) : *xy;
     if (!*xy || !*z)
         hm_cli_die(cli, "--%s: '%s' is not m, ft or us-ft, or two of them as ft/m", option, text);
 }
 
-/* The i-th of the units that a header says; NULL when there is none. */
-static const char *unit_word(const struct hm_header *h, int i, size_t *n)
+/* The i-th of the units that a header says. */
+static const struct hm_unit *said_unit(struct hm_cli *cli, const struct hm_header *h, size_t i)
 {
-    const char *s = hm_header_get(h, "units");
-    for (; s; i--) {
-        s += strspn(s, " \t");
-        *n = strcspn(s, " \t");
-        if (i == 0 || *n == 0)
-            break;
-        s += *n;
-    }
-    return s && *n > 0 ? s : NULL;
-}
-
-static const struct unit *said_unit(struct hm_cli *cli, const struct hm_header *h, int i)
-{
-    size_t n = 0;
-    const char *word = unit_word(h, i, &n);
-    if (!word)
-        return &units[0];
-    const struct unit *unit = find_unit(word, n);
-    if (!unit)
-        hm_cli_die(cli, "%s: the unit '%.*s' is not known; say with --from what it is",
-                   hm_reader_name(hm_cli_reader(cli)), (int)n, word);
+    const struct hm_unit *unit;
+    struct hm_diag d = {0};
+    if (hm_unit_of(h, i, &unit, &d))
+        hm_cli_die(cli, "%s: %s; say with --from what it is", hm_reader_name(hm_cli_reader(cli)),
+                   d.text);
     return unit;
 }
 
@@ -288,7 +257,7 @@ static void close_systems(struct plan *p)
 /* Units of both sides, for x y of an object whose systems are known to have degrees or metres. */
 static void choose_units(struct hm_cli *cli, const struct hm_header *h, struct plan *p)
 {
-    p->in_xy = p->out_xy = p->in_z = p->out_z = &units[0];
+    p->in_xy = p->out_xy = p->in_z = p->out_z = &hm_unit[HM_UNIT_M];
     if (cmd.units)
         parse_units(cli, "units", cmd.units, &p->out_xy, &p->out_z);
     if (cmd.from)
@@ -343,7 +312,7 @@ static void carry_inputs(struct hm_cli *cli, const struct hm_crs *target, struct
             p.target = p.source;
         choose_units(cli, &h, &p);
         if (extent)
-            p.out_z = &units[0];
+            p.out_z = &hm_unit[HM_UNIT_M];
         if (geoid && p.source.kind == HM_CRS_ENU && cmd.to == SAME)
             hm_cli_die(cli, "up is no height: --geoid cannot be used on east, north, up");
         if (geoid)
@@ -412,7 +381,7 @@ static void carry_spool(struct hm_cli *cli, int spool, const struct hm_crs *targ
     while (!(err = hm_reader_next(r, &h, &d))) {
         struct plan p = {.known = true, .source = {.kind = HM_CRS_LONLAT}, .target = *target};
         p.in_xy = &degree;
-        p.in_z = p.out_xy = p.out_z = &units[0];
+        p.in_z = p.out_xy = p.out_z = &hm_unit[HM_UNIT_M];
         if (cmd.units)
             parse_units(cli, "units", cmd.units, &p.out_xy, &p.out_z);
         if (target->kind == HM_CRS_LONLAT)
@@ -438,7 +407,7 @@ static void check_options(struct hm_cli *cli)
         hm_cli_die(cli, "--scale and --shift are for --to tm");
     if (cmd.geoid && cmd.to == ENU)
         hm_cli_die(cli, "--geoid and --to enu exclude each other: up is no height");
-    const struct unit *xy, *z;
+    const struct hm_unit *xy, *z;
     if (cmd.units)
         parse_units(cli, "units", cmd.units, &xy, &z);
     if (cmd.from)

@@ -1,28 +1,28 @@
-/* quality: mesh + measurements → report, verdict, exit code.
+/* quality: mesh + measurements + lines → report, verdict, exit code.
  *
  * The residual of a measurement is the height of the mesh there minus the measured height. The
  * measurements stream through when the mesh comes before them; memory does not grow with their
  * number then.
  */
-#include "hm_batch.h"
-#include "hm_cli.h"
-#include "hm_locate.h"
+#include "quality/quality.h"
+
+#include "hm_import.h"
 #include "hm_num.h"
 #include "hm_output.h"
-#include "hm_quality.h"
-#include "hm_thread.h"
+#include "hm_report.h"
+#include "hm_unit.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SAMPLES = 16, CHUNK = 1024 };
+enum { MOST_SAMPLES = 16 };
 
 static struct {
-    const char *samples, *thresholds, *criteria, *residuals;
-    int seed;
-    bool json;
-} cmd = {.samples = "1,5,10,30", .thresholds = "0.10,0.30", .seed = 1};
+    const char *samples, *thresholds, *criteria, *residuals, *compare, *courant;
+    double survey_error, follow;
+    int seed, by;
+    bool json, waved;
+} cmd = {.samples = "1,5,10,30", .thresholds = "0.10,0.30", .seed = 1, .follow = 0.5};
 
 static const struct hm_option options[] = {
     {'s', "sample", "LIST", HM_OPT_TEXT, &cmd.samples,
@@ -31,8 +31,20 @@ static const struct hm_option options[] = {
      .silent = true},
     {'t', "thresholds", "G,Y", HM_OPT_TEXT, &cmd.thresholds,
      .help = "largest green and yellow residual, m (default 0.10,0.30)"},
+    {0, "by", "WHAT", HM_OPT_CHOICE, &cmd.by,
+     .help = "residuals of each class of points, material, or zone=NAME too",
+     .choices = "none|class|region|zone", .silent = true},
+    {0, "survey-error", "M", HM_OPT_NUMBER, &cmd.survey_error,
+     .help = "RMSE of the measurements themselves, m (default 0: not known)", .silent = true},
+    {0, "follow", "M", HM_OPT_POSITIVE, &cmd.follow,
+     .help = "an edge this near follows a line, m (default 0.5)", .silent = true},
+    {0, "courant", "H,V", HM_OPT_TEXT, &cmd.courant,
+     .help = "time steps of Courant number 1 at depth H m and velocity V m/s", .silent = true,
+     .given = &cmd.waved},
     {'c', "check", "CRITERIA", HM_OPT_TEXT, &cmd.criteria,
      .help = "exit 1 unless all are met: 'rmse<=0.15,red<=5%,minangle>=20,valid'", .silent = true},
+    {0, "compare", "FILE", HM_OPT_TEXT, &cmd.compare,
+     .help = "judge that mesh too, and say both side by side", .silent = true},
     {'J', "json", NULL, HM_OPT_FLAG, &cmd.json, .help = "write the report as JSON", .silent = true},
     {'r', "residuals", "FILE", HM_OPT_TEXT, &cmd.residuals,
      .help = "write the points with residual and class there", .silent = true},
@@ -43,34 +55,24 @@ static const struct hm_program program = {
     .purpose = "mesh + measurements → how well they fit, how good the elements are",
     .operands = "[file ...]",
     .options = options,
-    .needs = HM_POINTS | HM_MESH,
+    .needs = HM_POINTS | HM_LINES | HM_MESH,
+    .foreign = hm_import_formats,
+    .converts = true,
     .without = "K"};
 
-/* All that the run holds. */
-struct run {
-    struct hm_cli *cli;
-    struct hm_mesh mesh;
-    struct hm_locate *locate; /* NULL until the mesh is there */
-    struct hm_points *held;   /* measurements that came before it */
-    size_t nheld, held_cap;
-    struct hm_quality quality;
-    struct hm_criterion *criteria;
-    size_t ncriteria;
-};
-
-/* The residual stream. In reach of the exit handler, so that a failure anywhere leaves no file. */
-static struct hm_writer *residuals;
+/* In reach of the exit handler, so that a failure anywhere leaves no residual file. */
+static struct run run;
 
 static void abandon_residuals(void)
 {
-    hm_writer_abandon(residuals);
+    hm_writer_abandon(run.writer);
 }
 
 /* --- what the user asked for --- */
 
 /* Numbers with commas between, each within 0 .. most; how many. */
-static size_t parse_list(struct hm_cli *cli, const char *option, const char *text, double most,
-                         double *list, size_t room)
+static size_t parse_list(const char *option, const char *text, double most, double *list,
+                         size_t room)
 {
     size_t n = hm_num_parse_list(text, ',', list, room);
     bool good = n > 0;
@@ -78,240 +80,244 @@ static size_t parse_list(struct hm_cli *cli, const char *option, const char *tex
         good = list[k] >= 0 && list[k] <= most;
     if (good)
         return n;
-    hm_cli_die(cli, "--%s: '%s' is not a list of at most %zu numbers from 0 to %g", option, text,
-               room, most);
+    hm_cli_die(run.cli, "--%s: '%s' is not a list of at most %zu numbers from 0 to %g", option,
+               text, room, most);
 }
 
-static void prepare(struct run *run)
+static void prepare_mesh(struct hm_quality *q)
 {
-    double percent[MOST_SAMPLES], thresholds[2];
+    double percent[MOST_SAMPLES], thresholds[2], water[2];
     struct hm_diag d = {0};
-    size_t n = parse_list(run->cli, "sample", cmd.samples, 100, percent, MOST_SAMPLES);
-    if (parse_list(run->cli, "thresholds", cmd.thresholds, 1e6, thresholds, 2) != 2 ||
+    size_t n = parse_list("sample", cmd.samples, 100, percent, MOST_SAMPLES);
+    if (parse_list("thresholds", cmd.thresholds, 1e6, thresholds, 2) != 2 ||
         thresholds[0] > thresholds[1])
-        hm_cli_die(run->cli, "--thresholds: '%s' is not two ascending numbers", cmd.thresholds);
-    if (cmd.residuals && !strcmp(cmd.residuals, "-"))
-        hm_cli_die(run->cli, "--residuals: needs a file, standard output has the report");
-    if (cmd.residuals)
-        hm_cli_check(run->cli, hm_output_check(cmd.residuals, &d), &d);
-    if (cmd.criteria)
-        hm_cli_check(run->cli, hm_criteria_parse(cmd.criteria, &run->criteria, &run->ncriteria, &d),
-                     &d);
-    hm_cli_check(run->cli, hm_quality_init(&run->quality, percent, n, cmd.seed, thresholds, &d),
-                 &d);
+        hm_cli_die(run.cli, "--thresholds: '%s' is not two ascending numbers", cmd.thresholds);
+    if (cmd.waved && (parse_list("courant", cmd.courant, 1e4, water, 2) != 2 || water[0] <= 0))
+        hm_cli_die(run.cli, "--courant: '%s' is not a depth over 0 and a velocity", cmd.courant);
+    *q = (struct hm_quality){.survey_error = cmd.survey_error,
+                             .strata = run.strata,
+                             .zones = &run.zones,
+                             .waved = cmd.waved,
+                             .depth = cmd.waved ? water[0] : 0,
+                             .velocity = cmd.waved ? water[1] : 0};
+    hm_cli_check(run.cli, hm_survey_init(&q->survey, percent, n, cmd.seed, thresholds, &d), &d);
 }
 
-/* --- measurements against the mesh --- */
+/* --- meshes --- */
 
-static void begin_residuals(struct run *run)
+static void read_mesh(struct hm_quality *q, struct hm_reader *r, struct hm_header *h)
 {
+    const struct hm_unit *xy, *z;
     struct hm_diag d = {0};
+    enum hm_err err = hm_mesh_read(&q->mesh, r, h, &d);
+    if (!err && q->mesh.nelems == 0)
+        hm_cli_die(run.cli, "%s: the mesh has no elements", hm_reader_name(r));
+    if (!err)
+        err = hm_unit_of(&q->mesh.header, 0, &xy, &d);
+    if (!err)
+        err = hm_unit_of(&q->mesh.header, 2, &z, &d);
+    hm_cli_check(run.cli, err, &d);
+    q->metres = hm_unit_metres(xy);
+    q->z_metres = hm_unit_metres(z);
+    hm_cli_stage(run.cli, "the elements");
+    hm_cli_check(run.cli, hm_quality_examine(q, &d), &d);
+}
+
+/* The mesh of --compare: the first of its file. */
+static void read_other(struct hm_quality *q, const char *path)
+{
+    struct hm_reader *r;
     struct hm_header h;
-    if (residuals)
-        return;
-    enum hm_err err = hm_header_init(&h, HM_POINTS, &d);
-    hm_cli_make_header(run->cli, &h);
-    if (!err)
-        err = hm_header_set(&h, "units", "m m m", &d);
-    if (!err)
-        err = hm_header_add_field(&h, "residual", "m", &d);
-    if (!err)
-        err = hm_header_add_field(&h, "class", "1", &d);
-    if (!err)
-        err = hm_writer_open(&residuals, cmd.residuals, hm_cli_format(run->cli), &d);
-    if (!err)
-        err = hm_writer_begin(residuals, &h, &d);
-    hm_header_free(&h);
-    hm_cli_check(run->cli, err, &d);
+    struct hm_diag d = {0};
+    hm_cli_check(run.cli, hm_reader_open(&r, path, &d), &d);
+    hm_reader_foreign(r, hm_import_formats);
+    enum hm_err err;
+    while (!(err = hm_reader_next(r, &h, &d)) && h.kind != HM_MESH)
+        hm_header_free(&h);
+    if (err == HM_END)
+        hm_cli_die(run.cli, "--compare: no mesh in %s", path);
+    hm_cli_check(run.cli, err, &d);
+    read_mesh(q, r, &h);
+    hm_reader_close(r);
 }
 
-/* Some measurements: where each lies and how high the mesh is there. */
-struct comparison {
-    const struct run *run;
-    const double *rows;
-    size_t n, stride;
-    bool on_mesh[HM_BATCH];
-    double height[HM_BATCH];
-};
-
-static void locate_chunk(void *arg, size_t chunk)
+static void check_crs(const struct hm_quality *a, const struct hm_quality *b)
 {
-    struct comparison *c = arg;
-    const struct hm_mesh *mesh = &c->run->mesh;
-    size_t end = (chunk + 1) * CHUNK < c->n ? (chunk + 1) * CHUNK : c->n;
-    for (size_t i = chunk * CHUNK; i < end; i++) {
-        const double *p = c->rows + i * c->stride;
-        int64_t e = hm_locate_element(c->run->locate, p[0], p[1]);
-        c->on_mesh[i] = e >= 0;
-        c->height[i] = e < 0 ? NAN : hm_elem_height(mesh, &mesh->elem[e], p[0], p[1]);
-    }
+    const char *ours = hm_header_get(&a->mesh.header, "crs");
+    const char *theirs = hm_header_get(&b->mesh.header, "crs");
+    if (ours && theirs && strcmp(ours, theirs))
+        hm_cli_die(run.cli, "--compare: %s is in %s, the mesh in %s", cmd.compare, theirs, ours);
 }
 
-static void count_point(struct hm_quality *q, const double *p, bool on_mesh, double residual)
-{
-    int64_t ordinal = q->points++;
-    if (isnan(p[2]))
-        q->heightless++;
-    else if (!on_mesh)
-        q->outside++;
-    else if (!isfinite(residual))
-        q->unknown++;
-    else
-        hm_quality_add(q, (struct hm_residual){p[0], p[1], residual}, ordinal);
-}
-
-static void compare(struct run *run, struct comparison *c)
+static void prepare(void)
 {
     struct hm_diag d = {0};
-    hm_thread_for(hm_cli_threads(run->cli), (c->n + CHUNK - 1) / CHUNK, locate_chunk, c);
-    for (size_t i = 0; i < c->n; i++) {
-        const double *p = c->rows + i * c->stride;
-        double residual = c->height[i] - p[2];
-        count_point(&run->quality, p, c->on_mesh[i], residual);
-        if (cmd.residuals) {
-            int class = hm_residual_classify(residual, run->quality.thresholds);
-            double row[5] = {p[0], p[1], p[2], residual, class};
-            hm_cli_check(run->cli, hm_writer_points(residuals, row, 1, &d), &d);
-        }
-    }
-}
-
-static struct comparison *new_comparison(struct run *run, size_t stride)
-{
-    struct comparison *c = hm_alloc(1, sizeof *c);
-    if (!c)
-        hm_cli_die(run->cli, "out of memory");
-    c->run = run;
-    c->stride = stride;
+    run.strata = (enum hm_strata)cmd.by;
+    run.residuals = cmd.residuals;
+    run.nmeshes = cmd.compare ? 2 : 1;
+    if (cmd.survey_error < 0)
+        hm_cli_die(run.cli, "--survey-error: %g is less than 0", cmd.survey_error);
+    if (cmd.residuals && !strcmp(cmd.residuals, "-"))
+        hm_cli_die(run.cli, "--residuals: needs a file, standard output has the report");
     if (cmd.residuals)
-        begin_residuals(run);
-    return c;
-}
-
-static void compare_held(struct run *run)
-{
-    for (size_t k = 0; k < run->nheld; k++) {
-        struct hm_points *p = &run->held[k];
-        struct comparison *c = new_comparison(run, p->stride);
-        for (size_t i = 0; i < p->n; i += HM_BATCH) {
-            c->rows = p->v + i * p->stride;
-            c->n = p->n - i < HM_BATCH ? p->n - i : HM_BATCH;
-            compare(run, c);
-        }
-        free(c);
-        hm_points_free(p);
-    }
-    run->nheld = 0;
+        hm_cli_check(run.cli, hm_output_check(cmd.residuals, &d), &d);
+    for (size_t m = 0; m < run.nmeshes; m++)
+        prepare_mesh(&run.mesh[m]);
 }
 
 /* --- input --- */
 
-static void stream_points(struct run *run, struct hm_header *h)
+/* Can measurements be compared, or must they wait for mesh or zones? */
+static bool is_ready(void)
 {
-    struct hm_diag d = {0};
-    struct comparison *c = new_comparison(run, h->nfields);
-    struct hm_batch b = {0};
-    enum hm_err err;
-    while (!(err = hm_batch_read(&b, hm_cli_reader(run->cli), h, &d))) {
-        c->rows = b.rows;
-        c->n = b.n;
-        compare(run, c);
-        hm_cli_progress_points(run->cli, b.n);
-    }
-    hm_cli_check(run->cli, err, &d);
-    hm_batch_free(&b);
-    free(c);
-    hm_header_free(h);
+    return run.has_mesh && (run.strata != HM_STRATA_ZONE || run.zones.ring.n > 0);
 }
 
-static void hold_points(struct run *run, struct hm_header *h)
+static void take_points(struct hm_header *h)
 {
-    if (!hm_grow(&run->held, &run->held_cap, run->nheld + 1, sizeof *run->held))
-        hm_cli_die(run->cli, "out of memory");
-    struct hm_points *p = &run->held[run->nheld++];
+    if (is_ready()) {
+        quality_stream_points(&run, h);
+        hm_header_free(h);
+        return;
+    }
+    if (!hm_grow(&run.held, &run.held_cap, run.nheld + 1, sizeof *run.held))
+        hm_cli_die(run.cli, "out of memory");
+    struct hm_points *p = &run.held[run.nheld++];
     *p = (struct hm_points){0};
-    hm_cli_read_points(run->cli, p, h);
+    hm_cli_read_points(run.cli, p, h);
 }
 
-static void take_mesh(struct run *run, struct hm_header *h)
+/* Zones among the lines, once it is known in which units. */
+static void take_zones(const struct hm_lines *lines)
+{
+    struct hm_lines scaled;
+    struct hm_diag d = {0};
+    size_t before = run.zones.ring.n;
+    if (run.strata != HM_STRATA_ZONE)
+        return;
+    quality_scale_lines(&run, lines, &run.mesh[0], &scaled);
+    hm_cli_check(run.cli, hm_zones_take(&run.zones, &scaled, &d), &d);
+    hm_lines_free(&scaled);
+    if (run.compared && run.zones.ring.n > before)
+        hm_cli_die(run.cli, "--by zone: all lines zone=NAME must come before the points");
+}
+
+static void take_lines(struct hm_header *h)
 {
     struct hm_diag d = {0};
-    const char *name = hm_reader_name(hm_cli_reader(run->cli));
-    if (run->locate)
-        hm_cli_die(run->cli, "%s: a second mesh; quality judges one at a time", name);
-    enum hm_err err = hm_mesh_read(&run->mesh, hm_cli_reader(run->cli), h, &d);
-    if (!err && run->mesh.nelems == 0)
-        hm_cli_die(run->cli, "%s: the mesh has no elements", name);
-    if (!err)
-        err = hm_locate_build(&run->locate, &run->mesh, &d);
-    hm_cli_check(run->cli, err, &d);
-    compare_held(run);
+    if (!hm_grow(&run.lines, &run.lines_cap, run.nlines + 1, sizeof *run.lines))
+        hm_cli_die(run.cli, "out of memory");
+    struct hm_lines *lines = &run.lines[run.nlines++];
+    *lines = (struct hm_lines){0};
+    hm_cli_check(run.cli, hm_lines_read(lines, hm_cli_reader(run.cli), h, &d), &d);
+    if (run.has_mesh)
+        take_zones(lines);
 }
 
-static void read_inputs(struct run *run)
+static void take_mesh(struct hm_header *h)
 {
-    struct hm_header h;
-    while (hm_cli_next(run->cli, &h)) {
-        run->quality.surveyed |= h.kind == HM_POINTS;
-        if (h.kind == HM_MESH)
-            take_mesh(run, &h);
-        else if (run->locate)
-            stream_points(run, &h);
-        else
-            hold_points(run, &h);
+    if (run.has_mesh)
+        hm_cli_die(run.cli, "%s: a second mesh; quality judges one at a time (--compare)",
+                   hm_reader_name(hm_cli_reader(run.cli)));
+    read_mesh(&run.mesh[0], hm_cli_reader(run.cli), h);
+    run.has_mesh = true;
+    if (cmd.compare) {
+        read_other(&run.mesh[1], cmd.compare);
+        check_crs(&run.mesh[0], &run.mesh[1]);
     }
-    if (!run->locate)
-        hm_cli_die(run->cli, "no mesh among the inputs");
-    const struct hm_quality *q = &run->quality;
-    if (q->points == 0)
-        hm_cli_die(run->cli, "no points among the inputs");
-    if (q->nworst == 0)
+    for (size_t k = 0; k < run.nlines; k++)
+        take_zones(&run.lines[k]);
+}
+
+static void check_measurements(const struct hm_survey *s)
+{
+    if (s->points == 0)
+        hm_cli_die(run.cli, "no points among the inputs");
+    if (s->nworst == 0)
         hm_cli_die(
-            run->cli,
+            run.cli,
             "no measurement tells anything: of %lld, %lld lie outside the mesh, %lld have no "
             "height, %lld lie where the mesh has none",
-            (long long)q->points, (long long)q->outside, (long long)q->heightless,
-            (long long)q->unknown);
+            (long long)s->points, (long long)(s->off[0] + s->off[1]), (long long)s->heightless,
+            (long long)s->unknown);
+}
+
+static void read_inputs(void)
+{
+    struct hm_header h;
+    while (hm_cli_next(run.cli, &h)) {
+        if (h.kind == HM_MESH)
+            take_mesh(&h);
+        else if (h.kind == HM_LINES)
+            take_lines(&h);
+        else
+            take_points(&h);
+        if (is_ready())
+            quality_compare_held(&run);
+    }
+    if (!run.has_mesh)
+        hm_cli_die(run.cli, "no mesh among the inputs");
+    if (!is_ready())
+        hm_cli_die(run.cli, "--by zone: no line zone=NAME among the inputs");
+    check_measurements(&run.mesh[0].survey);
 }
 
 /* --- output --- */
 
-static bool report(struct run *run)
+static void follow_lines(struct hm_quality *q)
+{
+    const struct hm_fidelity_want want = {cmd.follow, q->metres, q->z_metres};
+    struct hm_diag d = {0};
+    struct hm_lines *scaled = hm_alloc0(run.nlines, sizeof *scaled);
+    if (!scaled)
+        hm_cli_die(run.cli, "out of memory");
+    for (size_t k = 0; k < run.nlines; k++)
+        quality_scale_lines(&run, &run.lines[k], q, &scaled[k]);
+    hm_cli_check(run.cli,
+                 hm_fidelity_run(&q->lines, &q->mesh, q->walk, scaled, run.nlines, &want, &d), &d);
+    for (size_t k = 0; k < run.nlines; k++)
+        hm_lines_free(&scaled[k]);
+    free(scaled);
+}
+
+static bool report(struct hm_criterion *criteria, size_t n)
 {
     struct hm_diag d = {0};
-    struct hm_quality *q = &run->quality;
-    q->mesh = &run->mesh;
-    hm_cli_stage(run->cli, "the elements");
-    enum hm_err err = hm_meshstat_run(&run->mesh, &q->shape, &d);
-    if (!err)
-        err = hm_meshcheck_run(&run->mesh, &q->check, &d);
-    hm_cli_check(run->cli, err, &d);
-    if (residuals) {
-        err = hm_writer_end(residuals, &d);
-        if (!err)
-            err = hm_writer_close(&residuals, &d);
-        hm_cli_check(run->cli, err, &d);
-    }
-    bool good = hm_quality_judge(q, run->criteria, run->ncriteria);
-    struct hm_writer *w = hm_cli_writer(run->cli);
-    err = cmd.json ? hm_quality_json(q, run->criteria, run->ncriteria, w, &d)
-                   : hm_quality_text(q, run->criteria, run->ncriteria, w, &d);
-    hm_cli_check(run->cli, err, &d);
+    bool good = hm_quality_judge(&run.mesh[0], criteria, n);
+    const struct hm_report r = {&run.mesh[0], cmd.compare ? &run.mesh[1] : NULL, criteria, n};
+    struct hm_writer *w = hm_cli_writer(run.cli);
+    hm_cli_check(run.cli, cmd.json ? hm_report_json(&r, w, &d) : hm_report_text(&r, w, &d), &d);
     return good;
+}
+
+static void clear(void)
+{
+    for (size_t m = 0; m < run.nmeshes; m++)
+        hm_quality_free(&run.mesh[m]);
+    for (size_t k = 0; k < run.nlines; k++)
+        hm_lines_free(&run.lines[k]);
+    hm_zones_free(&run.zones);
+    free(run.lines);
+    free(run.held);
 }
 
 int main(int argc, char **argv)
 {
-    struct run run = {.cli = hm_cli_start(&program, argc, argv)};
+    struct hm_criterion *criteria = NULL;
+    size_t ncriteria = 0;
+    struct hm_diag d = {0};
+    run.cli = hm_cli_start(&program, argc, argv);
     atexit(abandon_residuals);
-    prepare(&run);
-    read_inputs(&run);
-    bool good = report(&run);
-    hm_locate_free(run.locate);
-    hm_mesh_free(&run.mesh);
-    hm_quality_free(&run.quality);
-    free(run.held);
-    free(run.criteria);
+    if (cmd.criteria)
+        hm_cli_check(run.cli, hm_criteria_parse(cmd.criteria, &criteria, &ncriteria, &d), &d);
+    prepare();
+    read_inputs();
+    quality_end_residuals(&run);
+    for (size_t m = 0; m < run.nmeshes; m++)
+        follow_lines(&run.mesh[m]);
+    bool good = report(criteria, ncriteria);
+    clear();
+    free(criteria);
     int status = hm_cli_finish(run.cli);
     return status ? status : good ? 0 : 1;
 }

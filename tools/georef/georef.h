@@ -4,11 +4,7 @@
 
 #include "hm_cli.h"
 #include "hm_geod.h"
-
-struct unit {
-    const char *name;
-    double num, den; /* num / den metres; a fraction, so that 3937 survey feet are 1200 m */
-};
+#include "hm_unit.h"
 
 /* What becomes of a place: units to metres, to longitude and latitude, the height, to the target,
  * metres to units. */
@@ -18,7 +14,7 @@ struct plan {
     struct hm_geod *from, *to;    /* NULL: nothing to do there */
     const struct hm_geoid *geoid; /* NULL: heights stay on what they are */
     double geoid_sign;            /* times the height of the geoid is added */
-    const struct unit *in_xy, *in_z, *out_xy, *out_z;
+    const struct hm_unit *in_xy, *in_z, *out_xy, *out_z;
 };
 
 /* Extent in longitude and latitude of what passed; longitudes run on beyond 180 from the first. */

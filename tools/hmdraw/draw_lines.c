@@ -23,6 +23,7 @@ static const struct style styles[] = {
     [HM_ROLE_STRING] = {"Boundary strings", &STRING, 0.22, false, false},
     [HM_ROLE_NET] = {"Control points", &ROUGH, 0.04, false, true},
     [HM_ROLE_MOVE] = {"Moved to breaklines", &STRING, 0.14, false, false},
+    [HM_ROLE_ZONE] = {"Zones", &INK, 0.08, false, true},
 };
 
 static void trace(struct page *page, const struct hm_line *line)

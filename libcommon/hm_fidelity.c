@@ -19,7 +19,7 @@ struct course {
     const struct hm_fidelity_want *want;
     struct hm_fidelity_line *line, *all;
     int32_t hint;
-    struct hm_measured gap; /* the stretch that is open now; value 0: none */
+    struct hm_measured gap; /* the stretch that is open now; value NaN: none */
 };
 
 static const struct hm_measured NOWHERE = {NAN, NAN, NAN};
@@ -68,14 +68,14 @@ static void close_gap(struct course *c)
         keep_largest(&c->line->gap, c->gap.value, at);
         keep_largest(&c->all->gap, c->gap.value, at);
     }
-    c->gap.value = 0;
+    c->gap = NOWHERE;
 }
 
 static void follow(struct course *c, const double *p, double length, double distance)
 {
     struct hm_fidelity_line *to[2] = {c->line, c->all};
     if (isnan(distance)) {
-        if (c->gap.value == 0)
+        if (isnan(c->gap.value))
             c->gap = (struct hm_measured){0, p[0], p[1]};
         c->gap.value += length;
         return;
@@ -172,7 +172,7 @@ enum hm_err hm_fidelity_run(struct hm_fidelity *f, const struct hm_mesh *m,
                             const struct hm_fidelity_want *want, struct hm_diag *d)
 {
     *f = (struct hm_fidelity){.tolerance = want->tolerance, .all = nothing()};
-    struct course c = {.mesh = m, .walk = walk, .want = want, .all = &f->all};
+    struct course c = {.mesh = m, .walk = walk, .want = want, .all = &f->all, .gap = NOWHERE};
     size_t cap = 0;
     enum hm_err err = HM_OK;
     snprintf(f->all.name, sizeof f->all.name, "all");

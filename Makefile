@@ -222,12 +222,14 @@ deps-quiet:
 
 install: all
 	$(Q)mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 \
-	    $(DESTDIR)$(PREFIX)/share/man/man5 $(DESTDIR)$(PREFIX)/share/man/man7
+	    $(DESTDIR)$(PREFIX)/share/man/man5 $(DESTDIR)$(PREFIX)/share/man/man7 \
+	    $(DESTDIR)$(PREFIX)/share/hybridmesh
 	$(Q)for p in $(PROGRAMS); do \
 	    install -m 755 $(B)/bin/$$p $(DESTDIR)$(PREFIX)/bin/$(PROGPREFIX)$$p && \
 	    install -m 644 man/$$p.1 $(DESTDIR)$(PREFIX)/share/man/man1/$(PROGPREFIX)$$p.1 || exit 1; done
 	$(Q)install -m 644 man/hybridmesh.5 $(DESTDIR)$(PREFIX)/share/man/man5/
 	$(Q)install -m 644 man/hybridmesh.7 $(DESTDIR)$(PREFIX)/share/man/man7/
+	$(Q)install -m 644 man/quality.schema.json $(DESTDIR)$(PREFIX)/share/hybridmesh/
 
 clean:
 	rm -rf build demo compile_commands.json

@@ -31,7 +31,7 @@ const struct hm_measure_kind hm_shape_kind[HM_SHAPES] = {
     [HM_SHAPE_SLOPE] = {"bed slope", "deg", false, {0, 1, 2, 5, 10, 20, 30, 45, 60, 90}, 9},
     [HM_SHAPE_AREA_RATIO] =
         {"area ratio", "", false, {1, 1.2, 1.5, 2, 3, 4, 6, 10, 20, INFINITY}, 9},
-    [HM_SHAPE_ORTHOGONALITY] = {"off orthogonal", "deg", false, {0, 5, 10, 20, 30, 45, 60, 90}, 7},
+    [HM_SHAPE_ORTHOGONALITY] = {"off orthogonal", "deg", false, {0, 5, 10, 20, 30, 45, 60, 70, 90}, 8},
     [HM_SHAPE_DEGREE] = {"elements at a node",
                          "",
                          false,
@@ -55,7 +55,7 @@ const char *hm_mesh_warning_name(enum hm_mesh_warning warning)
         [HM_WARN_MANY_ELEMENTS] = "inner node of more than 10 elements",
         [HM_WARN_ALL_BOUNDARY] = "triangle with all nodes on the boundary",
         [HM_WARN_STEEP] = "element steeper than 45 degrees",
-        [HM_WARN_ORTHOGONALITY] = "edge over 45 degrees off orthogonal"};
+        [HM_WARN_ORTHOGONALITY] = "edge over 70 degrees off orthogonal"};
     return name[warning];
 }
 
@@ -219,7 +219,7 @@ static void add_edge(struct hm_meshstat *s, const struct hm_mesh *m, const struc
     measure(t, HM_SHAPE_AREA_RATIO, ratio, at);
     measure(t, HM_SHAPE_ORTHOGONALITY, off, at);
     warn_if(ratio > 2, t, HM_WARN_AREA_RATIO, at);
-    warn_if(off > 45, t, HM_WARN_ORTHOGONALITY, at);
+    warn_if(off > 70, t, HM_WARN_ORTHOGONALITY, at);
 }
 
 static void add_nodes(struct hm_meshstat *s, const struct hm_mesh *m, const bool *border,

@@ -33,7 +33,7 @@ enum hm_mesh_warning {
     HM_WARN_MANY_ELEMENTS,  /* more than 10 elements at a node */
     HM_WARN_ALL_BOUNDARY,   /* a triangle with all three nodes on the boundary */
     HM_WARN_STEEP,          /* an element steeper than 45° */
-    HM_WARN_ORTHOGONALITY,  /* an edge over 45° from perpendicular */
+    HM_WARN_ORTHOGONALITY,  /* an edge over 70° from perpendicular */
     HM_WARNINGS
 };
 const char *hm_mesh_warning_name(enum hm_mesh_warning warning);

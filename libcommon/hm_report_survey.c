@@ -32,11 +32,13 @@ static void say_row(struct hm_report_page *p, const char *name, const struct hm_
 }
 
 /* The largest margin of the three shares: how far they may be from those of all. */
-static double margin(const struct hm_residuals *r)
+static double margin(const struct hm_residuals *r, const struct hm_residuals *all)
 {
     double most = 0;
-    for (int c = HM_RESIDUAL_GREEN; c <= HM_RESIDUAL_RED; c++)
-        most = fmax(most, hm_survey_margin(hm_residuals_share(r, (enum hm_residual_class)c), r->n));
+    for (int c = HM_RESIDUAL_GREEN; c <= HM_RESIDUAL_RED; c++) {
+        double share = hm_residuals_share(r, (enum hm_residual_class)c);
+        most = fmax(most, hm_survey_margin(share, r->n, all->n));
+    }
     return most;
 }
 
@@ -54,7 +56,7 @@ static void say_samples(struct hm_report_page *p, const struct hm_survey *s)
             snprintf(name, sizeof name, "%g %%", s->sample[k].percent);
         say_row(p, name, r);
         if (r->n && k + 1 < s->nsamples)
-            hm_say(p, "  %6.2f%%", margin(r));
+            hm_say(p, "  %6.2f%%", margin(r, hm_survey_all(s)));
         hm_say(p, "\n");
     }
 }

@@ -105,7 +105,9 @@ const struct hm_residuals *hm_survey_all(const struct hm_survey *s)
     return &s->sample[s->nsamples - 1].residuals;
 }
 
-double hm_survey_margin(double share, int64_t n)
+double hm_survey_margin(double share, int64_t n, int64_t N)
 {
-    return n ? HALF_WIDTH * sqrt(share * (100 - share) / (double)n) : NAN;
+    if (n == 0)
+        return NAN;
+    return HALF_WIDTH * sqrt(share * (100 - share) * (1 / (double)n - 1 / (double)N));
 }

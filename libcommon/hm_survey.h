@@ -58,8 +58,8 @@ enum hm_err hm_survey_add(struct hm_survey *s, struct hm_residual r, enum hm_sur
 /* Residuals of all compared measurements. */
 const struct hm_residuals *hm_survey_all(const struct hm_survey *s);
 
-/* Half a width of the interval that holds the share of a class among all with 95 % confidence when
- * a random sample of n has the share, all in percent. */
-double hm_survey_margin(double share, int64_t n);
+/* Half a width of the interval that holds the share of a class among N measurements with 95 %
+ * confidence when a random sample of n of them has the share, all in percent. */
+double hm_survey_margin(double share, int64_t n, int64_t N);
 
 #endif

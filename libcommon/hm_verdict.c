@@ -43,7 +43,7 @@ size_t hm_verdicts(const struct hm_residuals *r, double survey_error,
         judge(&v, survey_error <= TARGET / 2, HM_JUDGE_WARN, "survey twice as accurate",
               survey_error, "m", ASPRS);
     judge(&v, !(fabs(skew) > 0.5 || fabs(kurtosis) > 2), HM_JUDGE_WARN,
-          "near normal: skew within 0.5, kurtosis within 2", fabs(skew) > 0.5 ? skew : kurtosis, "",
+          "near normal (skew 0.5, kurtosis 2)", fabs(skew) > 0.5 ? skew : kurtosis, "",
           "rule of practice; else 1.96 RMSE is not 95 %");
     return (size_t)(v - list);
 }

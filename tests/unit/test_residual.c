@@ -166,7 +166,11 @@ static void places(void)
     ok(s.nstrata == 3 && s.stratum[0].key == -1 && s.stratum[1].key == 2 && s.stratum[2].key == 7,
        "strata by key");
     near(hm_residuals_mean(&s.stratum[2].residuals), 0.7 / 3, 1e-15, "mean of a stratum");
-    near(hm_survey_margin(50, 10000), 0.98, 1e-12, "half of ten thousand: within 0.98 points");
+    near(hm_survey_margin(50, 10000, INT64_MAX), 0.98, 1e-12,
+         "half of ten thousand: within 0.98 points");
+    near(hm_survey_margin(50, 10000, 20000), 0.98 * sqrt(0.5), 1e-12,
+         "of half of all there are: less");
+    near(hm_survey_margin(50, 10000, 10000), 0, 1e-12, "of all: none");
     hm_survey_free(&s);
 }
 

@@ -3,6 +3,10 @@
 
 #include "hm_boxtree.h"
 #include "hm_places.h"
+#include "hm_plane.h"
+#include "hm_polyline.h"
+#include "hm_rings.h"
+#include "hm_walk.h"
 #include "meshes.h"
 #include "tap.h"
 
@@ -37,6 +41,90 @@ static void compare(const struct hm_mesh *m, const char *name)
                 slowly(m, m->node[i].x, m->node[i].y);
     ok(same, "location in %s is that of a look at all", name);
     hm_locate_free(x);
+}
+
+/* Walks from anywhere end where a look at all does; borders are told by all edges without a right
+ * side. */
+static void walk(const struct hm_mesh *m, bool plane, const char *name)
+{
+    struct hm_walk *w;
+    struct hm_mesh_edge *edge;
+    size_t nedges;
+    bool same = true, border = true;
+    int32_t hint = 0;
+    int on = 0;
+    hm_mesh_edges(m, &edge, &nedges, NULL);
+    hm_walk_build(&w, m, edge, nedges, plane, NULL);
+    for (int i = 0; i < 4000; i++) {
+        double p[2] = {random01() * 14 - 2, random01() * 14 - 2};
+        if (i % 2) /* on the lattice: nodes, edges, the border */
+            for (int k = 0; k < 2; k++)
+                p[k] = round(p[k] * 2) / 2;
+        int64_t e = hm_walk_element(w, p[0], p[1], &hint);
+        same &= e == slowly(m, p[0], p[1]);
+        if (e < 0)
+            continue;
+        bool is = false;
+        for (size_t k = 0; k < nedges && plane; k++)
+            is |= edge[k].right < 0 &&
+                  hm_plane_holds(p, hm_mesh_xy(m, edge[k].a), hm_mesh_xy(m, edge[k].b));
+        border &= !plane || is == hm_walk_on_border(w, e, p[0], p[1]);
+        on += is;
+    }
+    ok(same, "walks in %s", name);
+    ok(border && (!plane || on > 20), "points on the border of %s (%d)", name, on);
+    hm_walk_free(w);
+    free(edge);
+}
+
+static void walks(void)
+{
+    struct hm_mesh m = {0};
+    lattice(&m, 0, 10, 20, 0, 10, 20, false);
+    for (size_t i = 0; i < 60; i++) /* holes and loose corners */
+        drop(&m, (size_t)(random01() * (double)m.nelems));
+    walk(&m, true, "triangles with holes");
+    empty(&m);
+    lattice(&m, 0, 10, 10, 0, 10, 10, true);
+    walk(&m, true, "quadrilaterals");
+    lattice(&m, 3, 7, 5, 3, 12, 6, true);
+    walk(&m, false, "a mesh over another");
+    empty(&m);
+}
+
+/* The last ring that holds a point, by the even-odd rule over all pieces. */
+static void rings(void)
+{
+    enum { RINGS = 40, VERTICES = 30 };
+    static double xyz[RINGS][3 * VERTICES];
+    struct hm_line ring[RINGS];
+    for (int k = 0; k < RINGS; k++) {
+        double cx = random01() * 10, cy = random01() * 10;
+        ring[k] = (struct hm_line){.xyz = xyz[k], .n = VERTICES, .closed = true};
+        for (int i = 0; i < VERTICES; i++) { /* stars on a lattice, so that exact hits are common */
+            double turn = i * 2 * acos(-1) / VERTICES, r = 0.5 + 2 * random01();
+            xyz[k][3 * i] = round(4 * (cx + r * cos(turn))) / 4;
+            xyz[k][3 * i + 1] = round(4 * (cy + r * sin(turn))) / 4;
+        }
+    }
+    struct hm_rings *r;
+    hm_rings_build(&r, ring, RINGS, NULL);
+    bool same = true;
+    int found = 0;
+    for (int i = 0; i < 4000; i++) {
+        double x = round(random01() * 100) / 8 - 1, y = round(random01() * 100) / 8 - 1;
+        int64_t last = -1;
+        for (int k = 0; k < RINGS; k++)
+            if (hm_polygon_side(&ring[k], x, y) >= 0)
+                last = k;
+        same &= hm_rings_find(r, x, y) == last;
+        found += last >= 0;
+    }
+    ok(same && found > 1000 && found < 4000, "the last ring around a point");
+    hm_rings_free(r);
+    hm_rings_build(&r, NULL, 0, NULL);
+    ok(hm_rings_find(r, 0, 0) == -1, "no rings");
+    hm_rings_free(r);
 }
 
 static void location(void)
@@ -130,6 +218,8 @@ static void places(void)
 int main(void)
 {
     location();
+    walks();
+    rings();
     heights();
     overlap();
     places();

@@ -31,7 +31,8 @@ const struct hm_measure_kind hm_shape_kind[HM_SHAPES] = {
     [HM_SHAPE_SLOPE] = {"bed slope", "deg", false, {0, 1, 2, 5, 10, 20, 30, 45, 60, 90}, 9},
     [HM_SHAPE_AREA_RATIO] =
         {"area ratio", "", false, {1, 1.2, 1.5, 2, 3, 4, 6, 10, 20, INFINITY}, 9},
-    [HM_SHAPE_ORTHOGONALITY] = {"off orthogonal", "deg", false, {0, 5, 10, 20, 30, 45, 60, 70, 90}, 8},
+    [HM_SHAPE_ORTHOGONALITY] =
+        {"off orthogonal", "deg", false, {0, 5, 10, 20, 30, 45, 60, 70, 90}, 8},
     [HM_SHAPE_DEGREE] = {"elements at a node",
                          "",
                          false,

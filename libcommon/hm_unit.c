@@ -37,3 +37,18 @@ enum hm_err hm_unit_of(const struct hm_header *h, size_t column, const struct hm
     return *unit ? HM_OK
                  : hm_fail(d, HM_EFORMAT, "the unit '%.*s' is not known", (int)length, word);
 }
+
+enum hm_err hm_unit_metres(const struct hm_header *h, double metres[2], struct hm_diag *d)
+{
+    const struct hm_unit *unit[3] = {NULL};
+    for (size_t i = 0; i < 3; i++) {
+        enum hm_err err = hm_unit_of(h, i, &unit[i], d);
+        if (err)
+            return err;
+    }
+    if (unit[0] != unit[1])
+        return hm_fail(d, HM_EFORMAT, "x is in %s, y in %s", unit[0]->name, unit[1]->name);
+    metres[0] = unit[0]->num / unit[0]->den;
+    metres[1] = unit[2]->num / unit[2]->den;
+    return HM_OK;
+}

@@ -22,9 +22,8 @@ const struct hm_unit *hm_unit_find(const char *name, size_t n);
 enum hm_err hm_unit_of(const struct hm_header *h, size_t column, const struct hm_unit **unit,
                        struct hm_diag *d);
 
-static inline double hm_unit_metres(const struct hm_unit *unit)
-{
-    return unit->num / unit->den;
-}
+/* What a unit of x and y, and one of z, is in metres. HM_EFORMAT as above, and when x and y differ.
+ */
+enum hm_err hm_unit_metres(const struct hm_header *h, double metres[2], struct hm_diag *d);
 
 #endif

@@ -107,18 +107,16 @@ static void prepare_mesh(struct hm_quality *q)
 
 static void read_mesh(struct hm_quality *q, struct hm_reader *r, struct hm_header *h)
 {
-    const struct hm_unit *xy, *z;
+    double metres[2] = {1, 1};
     struct hm_diag d = {0};
     enum hm_err err = hm_mesh_read(&q->mesh, r, h, &d);
     if (!err && q->mesh.nelems == 0)
         hm_cli_die(run.cli, "%s: the mesh has no elements", hm_reader_name(r));
     if (!err)
-        err = hm_unit_of(&q->mesh.header, 0, &xy, &d);
-    if (!err)
-        err = hm_unit_of(&q->mesh.header, 2, &z, &d);
+        err = hm_unit_metres(&q->mesh.header, metres, &d);
     hm_cli_check(run.cli, err, &d);
-    q->metres = hm_unit_metres(xy);
-    q->z_metres = hm_unit_metres(z);
+    q->metres = metres[0];
+    q->z_metres = metres[1];
     hm_cli_stage(run.cli, "the elements");
     hm_cli_check(run.cli, hm_quality_examine(q, &d), &d);
 }

@@ -18,14 +18,11 @@ enum { CHUNK = 2048 };
 void quality_scale(struct run *run, const struct hm_header *h, const struct hm_quality *q,
                    double scale[2])
 {
-    const struct hm_unit *xy, *z;
+    double metres[2] = {1, 1};
     struct hm_diag d = {0};
-    enum hm_err err = hm_unit_of(h, 0, &xy, &d);
-    if (!err)
-        err = hm_unit_of(h, 2, &z, &d);
-    hm_cli_check(run->cli, err, &d);
-    scale[0] = hm_unit_metres(xy) / q->metres;
-    scale[1] = hm_unit_metres(z) / q->z_metres;
+    hm_cli_check(run->cli, hm_unit_metres(h, metres, &d), &d);
+    scale[0] = metres[0] / q->metres;
+    scale[1] = metres[1] / q->z_metres;
 }
 
 void quality_scale_lines(struct run *run, const struct hm_lines *lines, const struct hm_quality *q,

@@ -8,19 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct hm_foreign hm_import_formats[] = {
-    {"ugrid", hm_import_is_ugrid, hm_import_ugrid, NULL},
-    {"slf", hm_import_is_slf, hm_import_slf, NULL},
-    {"msh", hm_import_is_msh, hm_import_msh, NULL},
-    {"ply", hm_import_is_ply, hm_import_ply, NULL},
-    {"vtk", hm_import_is_vtk, hm_import_vtk, NULL},
-    {"2d", hm_import_is_kalypso, hm_import_kalypso, NULL},
-    {"gr3", hm_import_is_gr3, hm_import_gr3, NULL},
-    {"geojson", hm_import_is_geojson, NULL, hm_import_geojson},
-    {"wkt", hm_import_is_wkt, NULL, hm_import_wkt},
-    {"triangle", hm_import_is_triangle, NULL, hm_import_triangle},
-    {0}};
-
 bool hm_import_begins(const char *s, const char *end, const char *text)
 {
     size_t n = strlen(text);

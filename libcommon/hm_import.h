@@ -16,4 +16,7 @@
  * .node alone or before .ele or .poly, .poly. Ends with a NULL name. */
 extern const struct hm_foreign hm_import_formats[];
 
+/* The same without GeoJSON, for programs that need no other library. */
+extern const struct hm_foreign hm_import_plain[];
+
 #endif

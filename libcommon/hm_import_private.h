@@ -88,4 +88,18 @@ enum hm_err hm_features_end(struct hm_features *f, enum hm_shape shape);
 enum hm_err hm_features_finish(struct hm_features *f, const char *crs);
 void hm_features_free(struct hm_features *f);
 
+/* The formats that need no other library, as items of a list. */
+#define HM_IMPORT_PLAIN                                                                            \
+    {"ugrid", hm_import_is_ugrid, hm_import_ugrid, NULL},                                          \
+        {"slf", hm_import_is_slf, hm_import_slf, NULL},                                            \
+        {"msh", hm_import_is_msh, hm_import_msh, NULL},                                            \
+        {"ply", hm_import_is_ply, hm_import_ply, NULL},                                            \
+        {"vtk", hm_import_is_vtk, hm_import_vtk, NULL},                                            \
+        {"2d", hm_import_is_kalypso, hm_import_kalypso, NULL},                                     \
+        {"gr3", hm_import_is_gr3, hm_import_gr3, NULL},                                            \
+        {"wkt", hm_import_is_wkt, NULL, hm_import_wkt},                                            \
+    {                                                                                              \
+        "triangle", hm_import_is_triangle, NULL, hm_import_triangle                                \
+    }
+
 #endif

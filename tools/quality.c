@@ -56,7 +56,7 @@ static const struct hm_program program = {
     .operands = "[file ...]",
     .options = options,
     .needs = HM_POINTS | HM_LINES | HM_MESH,
-    .foreign = hm_import_formats,
+    .foreign = hm_import_plain,
     .converts = true,
     .without = "K"};
 
@@ -128,7 +128,7 @@ static void read_other(struct hm_quality *q, const char *path)
     struct hm_header h;
     struct hm_diag d = {0};
     hm_cli_check(run.cli, hm_reader_open(&r, path, &d), &d);
-    hm_reader_foreign(r, hm_import_formats);
+    hm_reader_foreign(r, hm_import_plain);
     enum hm_err err;
     while (!(err = hm_reader_next(r, &h, &d)) && h.kind != HM_MESH)
         hm_header_free(&h);

@@ -13,11 +13,11 @@ static void say_counts(struct hm_report_page *p, const struct hm_survey *s)
     hm_say(p, "\nMeasurements\n");
     hm_say(p, "  given            %12lld\n", (long long)s->points);
     hm_say(p, "  without height   %12lld\n", (long long)s->heightless);
-    hm_say(p, "  outside the mesh %12lld  (%.2f %%), %lld of them in holes\n", (long long)off,
+    hm_say(p, "  outside the mesh %12lld  (%.2f %%; %lld in holes)\n", (long long)off,
            s->points ? 100 * (double)off / (double)s->points : 0, (long long)s->off[0]);
     if (s->unknown)
         hm_say(p, "  mesh has no z    %12lld\n", (long long)s->unknown);
-    hm_say(p, "  compared         %12lld, %lld of them on the border\n", (long long)all->n,
+    hm_say(p, "  compared         %12lld  (%lld on the border)\n", (long long)all->n,
            (long long)s->border);
 }
 

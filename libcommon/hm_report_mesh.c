@@ -65,15 +65,15 @@ void hm_report_lines(struct hm_report_page *p, const struct hm_fidelity *f)
 
 static void say_measures(struct hm_report_page *p, const struct hm_meshpart *whole)
 {
-    hm_say(p, "  measure                        least       mean       most  worst at\n");
+    hm_say(p, "  measure                     least       mean       most       worst at\n");
     for (int k = 0; k < HM_SHAPES; k++) {
         const struct hm_measure_kind *kind = &hm_shape_kind[k];
         const struct hm_measure *m = &whole->shape[k];
         const struct hm_measured *worst = m->worst;
         if (!m->n)
             continue;
-        hm_say(p, "  %-20s %-4s %10.3f %10.3f %10.3f  %.3f %.3f\n", kind->name, kind->unit,
-               m->least.value, hm_measure_mean(m), m->most.value, worst->x, worst->y);
+        hm_say(p, "  %-22s %10.3f %10.3f %10.3f  %-3s  %.3f %.3f\n", kind->name, m->least.value,
+               hm_measure_mean(m), m->most.value, kind->unit, worst->x, worst->y);
     }
 }
 

@@ -178,6 +178,10 @@ if python3 -c 'import zlib' 2>/dev/null; then
     true_that "small residual green" "$2 > $1"
     true_that "medium residual yellow" "$4 > 200 && $5 > 180 && $6 < 100"
     true_that "large residual red" "$7 > 200 && $8 < 100 && $9 < 50"
+    sed 's/^#data/#thresholds 5 9\n#data/' residuals.hm >mild.hm
+    hmdraw -P -s 100 -R 0/10/0/10 -o mild.png mild.hm
+    set -- $(pixel residuals.png 10,90) $(pixel mild.png 10,90 20,50 30,70)
+    true_that "all green by the thresholds of the header" "$4 == $1 && $7 == $1 && ${10} == $1"
 
     # a plain, 10 to 10.3 high, beside a mountain: in a window on the plain the colours are the plain's
     awk 'BEGIN { print "#hm 1 grid text\n#size 21 11\n#origin 0 0\n#step 1 1\n#data"

@@ -37,7 +37,7 @@ row() {
         [ "$next" != "$size" ] || break
         size=$next
     done
-    angle=$(quality --quiet mesh.hm held.xyz | awk '/smallest angle  / { print $4 }')
+    angle=$(quality --quiet mesh.hm held.xyz | awk '/smallest angle  / { print $3 }')
     echo "$1 $2 $3 $nodes $angle $(score held.xyz) $(if [ -e true.xyz ]; then score true.xyz; fi)"
 }
 hold_out() { # POINTS

@@ -2,6 +2,7 @@
 #include "draw.h"
 
 #include "hm_elem.h"
+#include "hm_num.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -221,11 +222,19 @@ enum hm_err classify(struct classes *c, const struct hm_mesh *m, enum mesh_fill 
 
 /* --- residuals --- */
 
-const double residual_limits[2] = {0.10, 0.30}; /* the paper's Table 1 */
+void residual_limits(const struct hm_header *h, double limits[2])
+{
+    const char *text = hm_header_get(h, "thresholds");
+    if (text && hm_num_parse_list(text, ' ', limits, 2) == 2 && limits[0] <= limits[1])
+        return;
+    limits[0] = 0.10; /* the paper's Table 1 */
+    limits[1] = 0.30;
+}
+
 const enum hm_residual_class residual_order[RESIDUAL_CLASSES] = {
     HM_RESIDUAL_GREEN, HM_RESIDUAL_YELLOW, HM_RESIDUAL_RED, HM_RESIDUAL_NONE};
 
-struct class residual_class(enum hm_residual_class class)
+struct class residual_class(enum hm_residual_class class, const double limits[2])
 {
     const struct rgb colour[RESIDUAL_CLASSES] = {
         [HM_RESIDUAL_NONE] = GREY,
@@ -239,6 +248,6 @@ struct class residual_class(enum hm_residual_class class)
     else
         snprintf(c.text, LEGEND_TEXT,
                  class == HM_RESIDUAL_RED ? "over %.2f m off" : "up to %.2f m off",
-                 residual_limits[class == HM_RESIDUAL_GREEN ? 0 : 1]);
+                 limits[class == HM_RESIDUAL_GREEN ? 0 : 1]);
     return c;
 }

@@ -198,11 +198,13 @@ enum hm_err classify(struct classes *c, const struct hm_mesh *m, enum mesh_fill 
                      const struct scale *heights, struct hm_diag *d);
 void classes_free(struct classes *c);
 
-/* Of residuals, by hm_residual_classify with these limits (metres): text and colour. */
+/* Limits of residual classes (metres): the header's `#thresholds`, as quality writes it, or the
+ * paper's Table 1. */
+void residual_limits(const struct hm_header *h, double limits[2]);
+/* Of residuals, by hm_residual_classify with such limits: text and colour. */
 enum { RESIDUAL_CLASSES = 4 };
-extern const double residual_limits[2];
 extern const enum hm_residual_class residual_order[RESIDUAL_CLASSES]; /* as legends name them */
-struct class residual_class(enum hm_residual_class class);
+struct class residual_class(enum hm_residual_class class, const double limits[2]);
 
 /* --- the layers --- */
 

@@ -4,10 +4,11 @@
 
 #include <math.h>
 
-static void enter_residuals(struct page *page, const int64_t count[RESIDUAL_CLASSES])
+static void enter_residuals(struct page *page, const int64_t count[RESIDUAL_CLASSES],
+                            const double limits[2])
 {
     for (int k = 0; k < RESIDUAL_CLASSES; k++) {
-        const struct class class = residual_class(residual_order[k]);
+        const struct class class = residual_class(residual_order[k], limits);
         if (count[residual_order[k]])
             legend_add(page, MARK_DOT, class.colour, count[residual_order[k]], "%s", class.text);
     }
@@ -73,15 +74,15 @@ static void draw_heights(const struct dots *dots, const struct hm_points *p, str
 
 /* The worst on top; what lies beside the mesh, small, under all that lies on it. */
 static void draw_residuals(const struct dots *dots, const struct hm_points *p, int column,
-                           int64_t count[RESIDUAL_CLASSES])
+                           const double limits[2], int64_t count[RESIDUAL_CLASSES])
 {
     for (int k = 0; k < RESIDUAL_CLASSES; k++) {
         const enum hm_residual_class wanted =
             residual_order[(k + RESIDUAL_CLASSES - 1) % RESIDUAL_CLASSES];
-        const struct rgb colour = residual_class(wanted).colour;
+        const struct rgb colour = residual_class(wanted, limits).colour;
         for (size_t i = 0; i < p->n; i++) {
             const double *row = &p->v[i * p->stride];
-            if (hm_residual_classify(row[column], residual_limits) != wanted)
+            if (hm_residual_classify(row[column], limits) != wanted)
                 continue;
             put_point(dots, row, wanted == HM_RESIDUAL_NONE ? 0.5 : 1, colour);
             count[wanted] += view_holds(dots->view, row[0], row[1]);
@@ -104,8 +105,10 @@ enum hm_err draw_points(struct page *page, const struct hm_points *p, const stru
                               residual >= 0 ? 0.5 : 0.25};
     if (residual >= 0) {
         int64_t count[RESIDUAL_CLASSES] = {0};
-        draw_residuals(&dots, p, residual, count);
-        enter_residuals(page, count);
+        double limits[2];
+        residual_limits(&p->header, limits);
+        draw_residuals(&dots, p, residual, limits, count);
+        enter_residuals(page, count, limits);
     } else {
         draw_heights(&dots, p, heights->range);
         legend_add(page, MARK_DOT, GREY, (int64_t)inside, "Measurements");

@@ -238,6 +238,7 @@ enum hm_err scene_add_residuals(struct scene *s, const struct hm_points *p, stru
     enum hm_err err = hm_locate_build(&index, &s->mesh, d);
     if (err)
         return err;
+    residual_limits(&p->header, s->residual_limits);
     if (!s->residual)
         s->residual = hm_alloc0(s->mesh.nelems, sizeof *s->residual);
     for (size_t i = 0; i < p->n && s->residual; i++) {
@@ -316,11 +317,11 @@ static enum hm_err colour_by_residual(struct scene *s, struct hm_diag *d)
         return hm_fail_memory(d);
     classes->n = RESIDUAL_CLASSES;
     for (int k = 0; k < RESIDUAL_CLASSES; k++)
-        classes->list[k] = residual_class(residual_order[k]);
+        classes->list[k] = residual_class(residual_order[k], s->residual_limits);
     for (size_t k = 0; k < s->mesh.nelems; k++) {
         const struct scene_residual *r = &s->residual[k];
         double rms = r->n ? sqrt(r->sum2 / (double)r->n) : NAN;
-        enum hm_residual_class class = hm_residual_classify(rms, residual_limits);
+        enum hm_residual_class class = hm_residual_classify(rms, s->residual_limits);
         while (residual_order[classes->of[k]] != class)
             classes->of[k]++;
     }

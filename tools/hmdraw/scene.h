@@ -60,6 +60,7 @@ struct scene {
     double origin[3], step[3], size[3]; /* metres; every coordinate is origin + a whole number of
                                            steps, to half a step */
     struct scene_residual *residual;    /* of each element; NULL when no points have residuals */
+    double residual_limits[2];          /* of their classes, metres */
     struct colouring colouring[SCENE_COLOURINGS];
     int ncolourings;
     int64_t lines[SCENE_LINES]; /* how many of each kind */

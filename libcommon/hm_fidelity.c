@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 static const double COS_MOST = 0.96592582628906829; /* of 15 degrees */
+static const double ON_LINE = 0.01;                 /* m: a node as near is on a line */
 
 /* What the stations of a line share. */
 struct course {
@@ -18,6 +19,7 @@ struct course {
     const struct hm_walk *walk;
     const struct hm_fidelity_want *want;
     struct hm_fidelity_line *line, *all;
+    int32_t *line_of; /* of each node: the last line, from 1, that it was found on */
     int32_t hint;
     struct hm_measured gap; /* the stretch that is open now; value NaN: none */
 };
@@ -26,7 +28,8 @@ static const struct hm_measured NOWHERE = {NAN, NAN, NAN};
 
 static struct hm_fidelity_line nothing(void)
 {
-    return (struct hm_fidelity_line){.aside = NOWHERE, .worst = NOWHERE, .gap = NOWHERE};
+    return (struct hm_fidelity_line){
+        .aside = NOWHERE, .worst = NOWHERE, .gap = NOWHERE, .across = {0, NAN, NAN}};
 }
 
 /* --- one station --- */
@@ -135,6 +138,51 @@ static void visit_piece(struct course *c, const double *a, const double *b)
     visit(c, b, along, 0);
 }
 
+/* --- triangles on a line --- */
+
+/* The nodes near a piece of the line are on it. */
+static void mark_nodes(struct course *c, const double *a, const double *b, int32_t number)
+{
+    double reach = ON_LINE / c->want->metres;
+    struct hm_boxquery q =
+        hm_boxtree_find(hm_walk_boxes(c->walk), hm_box_grown(hm_box_of(a, b), reach));
+    for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;) {
+        const struct hm_elem *e = &c->mesh->elem[i];
+        for (int k = 0; k < hm_elem_corners(e); k++)
+            if (c->line_of[e->node[k]] != number &&
+                hm_plane_distance(hm_mesh_xy(c->mesh, e->node[k]), a, b) <= reach)
+                c->line_of[e->node[k]] = number;
+    }
+}
+
+/* By the box of the whole line: each triangle once. */
+static void count_across(struct course *c, const struct hm_line *line, int32_t number)
+{
+    struct hm_box box = hm_box_of(line->xyz, line->xyz);
+    for (size_t i = 1; i < line->n; i++)
+        hm_box_add(&box, line->xyz + 3 * i);
+    int32_t first = -1;
+    struct hm_boxquery q = hm_boxtree_find(hm_walk_boxes(c->walk), box);
+    for (int32_t i; (i = hm_boxtree_next(&q)) >= 0;) {
+        const int32_t *n = c->mesh->elem[i].node;
+        if (n[3] >= 0 || c->line_of[n[0]] != number || c->line_of[n[1]] != number ||
+            c->line_of[n[2]] != number)
+            continue;
+        c->line->across.value++;
+        if (first < 0 || i < first)
+            first = i;
+    }
+    if (first < 0)
+        return;
+    double at[2];
+    hm_elem_centre(c->mesh, &c->mesh->elem[first], at);
+    c->line->across.x = at[0];
+    c->line->across.y = at[1];
+    if (c->all->across.value == 0)
+        c->all->across = (struct hm_measured){0, at[0], at[1]};
+    c->all->across.value += c->line->across.value;
+}
+
 /* Sums over a length become means. */
 static void finish(struct hm_fidelity_line *l)
 {
@@ -160,9 +208,14 @@ static enum hm_err take_line(struct hm_fidelity *f, size_t *cap, struct course *
     c->line = &f->line[f->n++];
     *c->line = nothing();
     name_line(c->line, line, f->n);
-    for (size_t k = 0; k < hm_polyline_pieces(line); k++)
-        visit_piece(c, hm_polyline_from(line, k), hm_polyline_to(line, k));
+    for (size_t k = 0; k < hm_polyline_pieces(line); k++) {
+        const double *a = hm_polyline_from(line, k), *b = hm_polyline_to(line, k);
+        visit_piece(c, a, b);
+        mark_nodes(c, a, b, (int32_t)f->n);
+    }
     close_gap(c);
+    if (line->n > 2)
+        count_across(c, line, (int32_t)f->n);
     finish(c->line);
     return HM_OK;
 }
@@ -174,13 +227,15 @@ enum hm_err hm_fidelity_run(struct hm_fidelity *f, const struct hm_mesh *m,
     *f = (struct hm_fidelity){.tolerance = want->tolerance, .all = nothing()};
     struct course c = {.mesh = m, .walk = walk, .want = want, .all = &f->all, .gap = NOWHERE};
     size_t cap = 0;
-    enum hm_err err = HM_OK;
+    c.line_of = hm_alloc0(m->nnodes, sizeof *c.line_of);
+    enum hm_err err = c.line_of ? HM_OK : hm_fail_memory(d);
     snprintf(f->all.name, sizeof f->all.name, "all");
     for (size_t i = 0; i < n && !err; i++)
         for (size_t k = 0; k < sets[i].n && !err; k++)
             if (hm_role_of(sets[i].line[k].attrs) == HM_ROLE_BREAKLINE)
                 err = take_line(f, &cap, &c, &sets[i].line[k], d);
     finish(&f->all);
+    free(c.line_of);
     if (err)
         hm_fidelity_free(f);
     return err;

@@ -4,6 +4,9 @@
  * Stations stand along each line, at most `tolerance` apart, and at its vertices. At a station the
  * mesh follows the line when one of its edges lies within `tolerance` and runs in the line's
  * direction, to 15 degrees. Means and shares go by length.
+ *
+ * A triangle with all three nodes on one line, to 1 cm, has one height where the line is level: it
+ * dams a channel, or cuts the corner of a bank.
  */
 #ifndef HM_FIDELITY_H
 #define HM_FIDELITY_H
@@ -15,15 +18,16 @@
 /* Of one line, or of all. Lengths in metres, places in the coordinates of the mesh; what does not
  * exist is NaN. */
 struct hm_fidelity_line {
-    char name[32];            /* its attribute name=, else limit=, else its number */
-    double length, on_mesh;   /* whole, and of that on the mesh */
-    double followed;          /* length on the mesh that edges follow */
-    double lateral;           /* mean distance of the edges that follow, */
-    struct hm_measured aside; /* and the largest */
-    double sounded;           /* length on the mesh where line and mesh have heights, */
-    double rise, rise_size;   /* there: mean of z(mesh) - z(line), and of its size, */
-    struct hm_measured worst; /* and the one of largest size, with its sign */
-    struct hm_measured gap;   /* longest stretch on the mesh that no edge follows; its beginning */
+    char name[32];             /* its attribute name=, else limit=, else its number */
+    double length, on_mesh;    /* whole, and of that on the mesh */
+    double followed;           /* length on the mesh that edges follow */
+    double lateral;            /* mean distance of the edges that follow, */
+    struct hm_measured aside;  /* and the largest */
+    double sounded;            /* length on the mesh where line and mesh have heights, */
+    double rise, rise_size;    /* there: mean of z(mesh) - z(line), and of its size, */
+    struct hm_measured worst;  /* and the one of largest size, with its sign */
+    struct hm_measured gap;    /* longest stretch on the mesh that no edge follows; its beginning */
+    struct hm_measured across; /* triangles with all nodes on the line; the first */
 };
 
 struct hm_fidelity {

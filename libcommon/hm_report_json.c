@@ -129,6 +129,7 @@ static void put_line(struct hm_json *j, const char *name, const struct hm_fideli
     hm_json_number(j, "vertical_mean_size", l->rise_size);
     put_measured(j, "vertical_largest", l->worst);
     put_measured(j, "longest_not_followed", l->gap);
+    put_measured(j, "triangles_on_line", l->across);
     hm_json_close(j, '}');
 }
 

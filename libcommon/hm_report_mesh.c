@@ -58,6 +58,9 @@ void hm_report_lines(struct hm_report_page *p, const struct hm_fidelity *f)
     if (!isnan(f->all.gap.value))
         hm_say(p, "  longest way not followed %.1f m from %.3f %.3f\n", f->all.gap.value,
                f->all.gap.x, f->all.gap.y);
+    if (f->all.across.value > 0)
+        hm_say(p, "  triangles with all nodes on one line: %.0f, the first at %.3f %.3f\n",
+               f->all.across.value, f->all.across.x, f->all.across.y);
     free(line);
 }
 

@@ -82,6 +82,28 @@ quality -J -o report.json lattice.hm point.xyz feet.hm
 near "lines in feet: metres" "$(line half on_mesh)" 85 1e-9
 near "and their heights" "$(line leaving vertical_largest)" 6.5 1e-9
 
+# --- a channel drawn as one line round it: triangles between its banks have all nodes on the line ---
+cat >channel.hm <<'END'
+#hm 1 mesh text
+#data
+v 0 0 0 0 0
+v 10 0 0 0 0
+v 10 2 0 0 0
+v 0 2 0 0 0
+v 5 9 0 0 0
+t 0 1 2 0
+t 0 2 3 0
+t 3 2 4 0
+#end
+END
+printf '> name=banks\n0 0 0\n10 0 0\n10.005 2 0\n0 2 0\n> name=bank\n0 0 0\n10 0 0\n' >banks.txt
+echo 5 1 0 >middle.xyz
+quality -J -o report.json channel.hm middle.xyz banks.txt
+near "two triangles dam the channel" "$(line banks triangles_on_line)" 2 0
+near "the first of them" "$(line banks triangles_on_line 2)" "20 / 3" 1e-12
+near "no triangle lies on one bank" "$(line bank triangles_on_line)" 0 0
+ok "the text says so" sh -c "quality channel.hm middle.xyz banks.txt | grep -q 'all nodes on one line: 2, the first at 6.667 0.667'"
+
 # --- awk as a second opinion: a wavy line over a bent mesh of triangles, by stations of its own ---
 awk 'BEGIN { print "#hm 1 mesh text\n#data"
     for (j = 0; j <= 12; j++) for (i = 0; i <= 12; i++)

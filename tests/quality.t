@@ -320,6 +320,10 @@ awk 'BEGIN { print "#hm 1 points text\n#units m m us-ft\n#data" } { print $1, $2
 quality -J -o report.json -r mixed.hm wave.hm survey_feet.hm
 near "points with heights in survey feet" "$(all rmse)" "$rmse" 1e-9
 ok "the residual stream is in the units of the mesh" sh -c 'hmconv --info mixed.hm && ! grep "#units.*ft" mixed.hm'
+sed 's/^#units.*/#units ft ft ft\
+#crs some state plane in feet/' survey_feet.hm >feet_points.hm
+quality -r mixed.hm square.hm feet_points.hm seven.xyz >/dev/null
+ok "a crs of other units is not that of the residuals" sh -c '! grep -q "^#crs" mixed.hm'
 sed 's/#units ft ft ft/#units ell ell ell/' feet.hm >ells.hm
 must_fail "a unit nobody knows" 2 "the unit 'ell' is not known" quality ells.hm many.xyz
 

@@ -152,12 +152,15 @@ static enum hm_err set_thresholds(const struct run *run, struct hm_header *h, st
     return hm_header_set(h, "thresholds", text, d);
 }
 
-static void begin_residuals(struct run *run)
+/* Coordinates are those of the mesh: a system of the measurements in other units is not theirs. */
+static void begin_residuals(struct run *run, bool converted)
 {
     struct hm_diag d = {0};
     struct hm_header h;
     enum hm_err err = hm_header_init(&h, HM_POINTS, &d);
     hm_cli_make_header(run->cli, &h);
+    if (!err && converted)
+        err = hm_header_set(&h, "crs", hm_header_get(&run->mesh[0].mesh.header, "crs"), &d);
     if (!err)
         err = set_units(run, &h, &d);
     if (!err)
@@ -200,7 +203,7 @@ static struct comparison *new_comparison(struct run *run, const struct hm_header
     for (size_t m = 0; m < run->nmeshes; m++)
         quality_scale(run, h, &run->mesh[m], c->scale[m]);
     if (run->residuals && !run->writer)
-        begin_residuals(run);
+        begin_residuals(run, c->scale[0][0] != 1);
     run->compared = true;
     return c;
 }

@@ -204,18 +204,18 @@ static void parse_name(struct reading *r, const char *name)
 }
 
 /* The member "crs" of before RFC 7946, which is still what projected data have; null says that
- * there is none. Without it longitude and latitude are meant, unless the numbers cannot be. */
+ * there is none. Without it longitude and latitude are meant. But GDAL writes CRS84 over data of
+ * which it does not know the crs, so numbers that cannot be degrees are none. */
 static void find_crs(struct reading *r, const json_t *root)
 {
     const json_t *crs = json_object_get(root, "crs");
-    const struct hm_crs degrees = {.kind = HM_CRS_LONLAT};
-    if (json_is_object(crs))
-        parse_name(r, text_of(json_object_get(crs, "properties"), "name"));
-    else if (!crs && all_degrees(r->f.o))
-        hm_crs_print(r->crs, &degrees);
+    parse_name(r, crs ? text_of(json_object_get(crs, "properties"), "name") : "CRS84");
     for (char *c = r->crs; *c; c++)
         if ((unsigned char)*c < ' ')
             *c = ' ';
+    struct hm_crs system;
+    if (hm_crs_parse(&system, r->crs) && system.kind == HM_CRS_LONLAT && !all_degrees(r->f.o))
+        *r->crs = '\0';
 }
 
 /* --- the file --- */

@@ -304,6 +304,9 @@ END
         hmconv there.geojson >got
         sed 's/0.30000000000000004$/0.3/' lines.hm >want
         same "the GeoJSON that GDAL writes" want got
+        hmconv -t geojson plain.hm >unknown.geojson
+        ogr2ogr -f GeoJSON there.geojson unknown.geojson >gdal.log 2>&1
+        ok "and of data without a crs, of which it says CRS84" sh -c 'hmconv there.geojson >got && ! grep -q "^#crs" got'
         ogr2ogr -f GeoJSON -lco RFC7946=YES lonlat.geojson lines.geojson -where "surface='main'" >gdal.log 2>&1
         hmconv -i lonlat.geojson >got
         ok "and in longitude and latitude" sh -c 'grep -q "longitude latitude" got && grep -q "x  *9.68" got'

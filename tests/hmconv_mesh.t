@@ -340,6 +340,10 @@ hmconv: 1 quadrilateral split into triangles
 END
 same "what tsh lacks is said" want err
 
+sed 's/^#crs.*/#crs TM lon=9 lat=0 scale=1 x=0 y=0 WGS84/' mesh.hm | hmconv -t tsh >got 2>err
+ok "which is no other crs" grep -q 'tsh has no place for the crs: "TM lon=9' err
+printf '#hm 1 grid text\n#size 2 2\n#origin 0 0\n#step 1 1\n#crs UTM 32N WGS84\n#units ft ft m\n#data\n0 0 1\n1 0 3\n0 1 1\n1 1 6\n#end\n' | hmconv -t asc >got 2>err
+ok "an ESRI grid: the crs and the units" sh -c 'grep -q "dropped (-t prj writes it)" err && grep -q "asc has no units: coordinates stay in ft" err'
 convert medit
 cat >want <<'END'
 MeshVersionFormatted 2

@@ -29,7 +29,7 @@ static const struct format formats[] = {
     {"vtu", MESH, HM_MESH, hm_export_vtu, NO_STRINGS | NO_CRS},
     {"msh", MESH, HM_MESH, hm_export_msh, NO_CRS},
     {"ply", MESH, HM_MESH, hm_export_ply, NO_STRINGS | NO_CRS},
-    {"tsh", MESH, HM_MESH, hm_export_tsh, NO_QUADS},
+    {"tsh", MESH, HM_MESH, hm_export_tsh, NO_QUADS | CRS_OF_UTM},
     {"medit", MESH, HM_MESH, hm_export_medit, NO_HEIGHTS | NO_CRS},
     {"srhgeom", MESH, HM_MESH, hm_export_srh, NO_REGIONS | NO_CRS},
     {"ele", MESH, HM_MESH, hm_export_ele, NO_QUADS | NO_STRINGS},

@@ -16,7 +16,8 @@ enum {
     FROM_ONE = 32,     /* no region 0 */
     SEVEN_PLACES = 64, /* behind the point */
     NO_CRS = 128,
-    CRS_OF_EPSG = 256 /* that has a code */
+    CRS_OF_EPSG = 256, /* only one that has a code */
+    CRS_OF_UTM = 512   /* only that */
 };
 
 /* How a format is written: as objects come, or held until all inputs were read, so that nothing is

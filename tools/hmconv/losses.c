@@ -5,21 +5,32 @@
 
 #include <string.h>
 
-/* What a header says and the format cannot, each once. */
+static bool loses_crs(int lacks, const char *crs)
+{
+    struct hm_crs system;
+    if (lacks & CRS_OF_EPSG)
+        return hm_crs_epsg(crs) == 0;
+    if (lacks & CRS_OF_UTM)
+        return !hm_crs_parse(&system, crs) || system.kind != HM_CRS_UTM;
+    return lacks & NO_CRS;
+}
+
+/* Each once. Degrees are said by the crs. */
 void hmconv_say_header(const struct job *j, const struct hm_header *h)
 {
-    static bool crs_said, units_said;
+    static bool crs_said, unit_said;
     const char *crs = hm_header_get(h, "crs"), *name = j->to->name;
-    int lacks = j->to->lacks;
-    bool no_crs = (lacks & NO_CRS) || (crs && (lacks & CRS_OF_EPSG) && hm_crs_epsg(crs) == 0);
     char unit[16];
     hm_header_unit(h, 0, unit, sizeof unit);
-    if (crs && no_crs && !crs_said)
-        hm_cli_say(j->cli, "%s has no place for the crs: \"%s\" dropped", name, crs);
-    if (strcmp(unit, "m") && !units_said && j->to->way != STREAM)
+    bool no_crs = crs && loses_crs(j->to->lacks, crs);
+    bool no_unit = strcmp(unit, "m") && strcmp(unit, "degree") && j->to->way != STREAM;
+    if (no_crs && !crs_said)
+        hm_cli_say(j->cli, "%s has no place for the crs: \"%s\" dropped%s", name, crs,
+                   strcmp(name, "asc") ? "" : " (-t prj writes it)");
+    if (no_unit && !unit_said)
         hm_cli_say(j->cli, "%s has no units: coordinates stay in %s", name, unit);
-    crs_said |= crs && no_crs;
-    units_said |= strcmp(unit, "m") != 0;
+    crs_said |= no_crs;
+    unit_said |= no_unit;
 }
 
 void hmconv_say_names(const struct job *j, const struct hm_header *h)

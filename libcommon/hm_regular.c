@@ -3,7 +3,7 @@
 #include "hm_coons.h"
 #include "hm_drape.h"
 #include "hm_polyline.h"
-#include "hm_pred.h"
+#include "hm_stations.h"
 #include "hm_thread.h"
 
 #include <math.h>
@@ -44,29 +44,6 @@ static void plan_free(struct plan *p)
 static double apart(const double *a, const double *b)
 {
     return hypot(b[0] - a[0], b[1] - a[1]);
-}
-
-/* Number of control points along: by the mean length of the banks, the same on both. */
-static enum hm_err divide_banks(struct plan *p, struct hm_diag *d)
-{
-    const struct hm_rough *r = p->rough;
-    double length = 0;
-    for (int side = 0; side < 2; side++)
-        length += hm_polyline_length(&r->side[side]) / 2;
-    const double *start = r->side[HM_RIGHT].xyz;
-    if (r->size.along > length)
-        return hm_fail_at(d, HM_EGEOM, start[0], start[1],
-                          "control points every %g m along surface '%s' are farther apart than its "
-                          "banks are long (%.4g m)",
-                          r->size.along, r->name, length);
-    double pieces = floor(length / r->size.along + 0.5);
-    if (pieces > INT32_MAX / 8)
-        return hm_fail(d, HM_ENOMEM, "control points every %g m are too many for surface '%s'",
-                       r->size.along, r->name);
-    enum hm_err err = HM_OK;
-    for (int side = 0; !err && side < 2; side++)
-        err = hm_polyline_divide(&r->side[side], (size_t)pieces, &p->out->laid[side], &p->n, d);
-    return err;
 }
 
 /* Parameters of columns (equal) and of rows (v runs from right to left, fractions the other way).
@@ -374,7 +351,7 @@ enum hm_err hm_regular_surface(struct hm_regular *s, const struct hm_rough *roug
 {
     *s = (struct hm_regular){0};
     struct plan p = {.rough = rough, .out = s};
-    enum hm_err err = divide_banks(&p, d);
+    enum hm_err err = hm_stations_lay(rough, how->orthogonal, s->laid, &p.n, d);
     if (!err)
         err = divide_sections(&p, d);
     if (!err)

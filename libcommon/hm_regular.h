@@ -23,7 +23,9 @@ struct hm_regular_how {
     int degree;     /* 1, 2 or 3 */
     int iterations; /* by which z is dragged to the terrain: the smoothing knob */
     bool quads;
-    double gap; /* of the terrain, metres: for the message that there is none */
+    bool alternating; /* diagonals, not the better fit */
+    bool orthogonal;  /* shift control points along the banks: hm_stations */
+    double gap;       /* of the terrain, metres: for the message that there is none */
     int threads;
 };
 
@@ -52,8 +54,8 @@ void hm_regular_free(struct hm_regular *s);
  * flagged yet. HM_EGEOM with the place where an element would be folded or have no area.
  *
  * Each cell of nodes is cut by the diagonal whose middle lies nearer to the surface; by the shorter
- * one where that makes less than HM_REGULAR_FIT metres; in the corners from the corner, so that no
- * triangle has all three nodes on the border. */
+ * one where that makes less than HM_REGULAR_FIT metres; or alternately; in the corners from the
+ * corner, so that no triangle has all three nodes on the border. */
 #define HM_REGULAR_FIT 0.02
 enum hm_err hm_regular_mesh(struct hm_regular *s, const struct hm_rough *rough,
                             const struct hm_regular_how *how, struct hm_mesh *mesh,

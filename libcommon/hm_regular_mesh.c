@@ -19,7 +19,7 @@ struct weave {
     const struct hm_rough *rough;
     struct hm_mesh *mesh;
     size_t nu, nv; /* elements along and across */
-    bool quads;
+    bool quads, alternating;
     unsigned char *shape; /* a cell: i * nv + j */
 };
 
@@ -122,6 +122,8 @@ static enum shape choose_diagonal(const struct weave *w, size_t i, size_t j,
         return CUT_AC;
     if ((last && right) || (first && left))
         return CUT_BE;
+    if (w->alternating)
+        return (i + j) % 2 == 0 ? CUT_AC : CUT_BE;
     double p[3];
     hm_bspline_eval(&w->s->surface, parameter_u(w, (double)i + 0.5),
                     parameter_v(w, (double)j + 0.5), p, NULL, NULL);
@@ -194,7 +196,8 @@ enum hm_err hm_regular_mesh(struct hm_regular *s, const struct hm_rough *rough,
                             const struct hm_regular_how *how, struct hm_mesh *mesh,
                             struct hm_diag *d)
 {
-    struct weave w = {.s = s, .rough = rough, .mesh = mesh, .quads = how->quads};
+    struct weave w = {
+        .s = s, .rough = rough, .mesh = mesh, .quads = how->quads, .alternating = how->alternating};
     enum hm_err err = count_elements(&w, d);
     if (err)
         return err;

@@ -101,20 +101,23 @@ static bool same_across(const struct hm_rough_size *a, const struct hm_rough_siz
  * different things. */
 static enum hm_err read_sizes(struct hm_rough *r, const char *attrs, struct hm_diag *d)
 {
-    static const char *const key[] = {"along", "snap", "across", "elements"};
+    static const char *const key[] = {"along", "snap", "across", "elements", "bend"};
     char text[512];
     struct hm_rough_size now = r->size;
     enum hm_err err = HM_OK;
-    for (int k = 0; !err && k < 4; k++) {
+    for (int k = 0; !err && k < 5; k++) {
         if (!hm_attr_get(attrs, key[k], text, sizeof text))
             continue;
         err = k == 0   ? read_length(attrs, key[k], false, &now.along, d)
               : k == 1 ? read_length(attrs, key[k], true, &now.snap, d)
               : k == 2 ? hm_rough_parse_across(text, &now, d)
+              : k == 4 ? hm_attr_number(attrs, key[k], 0, &now.bend, d)
                        : hm_rough_parse_elements(text, &now, d);
-        bool same = now.along == r->size.along && now.snap == r->size.snap &&
-                    same_across(&now, &r->size) && now.elem_along == r->size.elem_along &&
-                    now.elem_across == r->size.elem_across;
+        if (!err && !(now.bend >= 0 && now.bend <= 180))
+            err = hm_fail(d, HM_EFORMAT, "bend=%s is no angle from 0 to 180 degrees", text);
+        bool same = now.bend == r->size.bend && now.along == r->size.along &&
+                    now.snap == r->size.snap && same_across(&now, &r->size) &&
+                    now.elem_along == r->size.elem_along && now.elem_across == r->size.elem_across;
         if (!err && (r->said & 1U << k) && !same)
             err = hm_fail(d, HM_EFORMAT,
                           "%s=%s contradicts another line of surface '%s'; one of them is enough",

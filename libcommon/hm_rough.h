@@ -26,7 +26,8 @@ struct hm_rough_size {
     double along, across; /* distance of control points in metres; across 0 with fractions */
     double fraction[HM_ROUGH_FRACTIONS]; /* or their places from left bank (0) to right bank (1) */
     size_t nfractions;
-    double snap;                    /* metres that a control point may move to a breakline */
+    double bend; /* degrees that a bank may turn between control points; 0: any */
+    double snap; /* metres that a control point may move to a breakline */
     double elem_along, elem_across; /* lengths of the elements, metres */
 };
 
@@ -35,7 +36,8 @@ struct hm_rough {
     int32_t number;                /* 1, 2, … in order of appearance */
     struct hm_line side[HM_SIDES]; /* owned; turned as in the figure, the corners joined */
     struct hm_rough_size size;
-    unsigned said; /* bits of the attributes along, snap, across, elements: some line has it */
+    unsigned
+        said; /* bits of the attributes along, snap, across, elements, bend: some line has it */
 };
 
 /* "10/8", "10" (the same across) or "10/0,.1,.3,.7,.9,1": distances of control points. */
@@ -47,7 +49,7 @@ enum hm_err hm_rough_parse_elements(const char *text, struct hm_rough_size *size
                                     struct hm_diag *d);
 
 /* All surfaces in n sets of lines, in order of appearance; `defaults` holds where no attribute
- * along= across= snap= elements= says otherwise. *list is malloc'd, free with hm_rough_free.
+ * along= across= snap= elements= bend= says otherwise. *list is malloc'd, free with hm_rough_free.
  * HM_EGEOM with the place when a bank is missing, given twice, closed, a point, or when the outline
  * of a surface crosses itself, or a section drawn is not one between the banks' ends; HM_EFORMAT
  * for attributes that make no sense, or that two lines of a surface contradict each other in. */

@@ -205,6 +205,67 @@ true_that "and are no breaklines" "$(grep '^[vt]' m.hm | cksum | cut -d' ' -f1) 
 must_fail "the net to standard output" 2 "needs a file" bsmesh --net - -c 10/8 -e 10/4 lines.txt plane.xyz
 must_fail "or to nowhere" 2 "no/such" bsmesh --net no/such/file -c 10/8 -e 10/4 lines.txt plane.xyz
 
+# --- diagonals, right angles, bends ---
+
+ok "alternating diagonals" bsmesh -d alternating -o alt.hm -c 10/8 -e 10/4 lines.txt plane.xyz
+# Of each inner node of such a mesh eight triangles meet or four; a corner never has three border nodes.
+true_that "eight triangles round a node or four" "$(awk '/^v/ { inner[n++ + 0] = $5 % 2 == 0 && $2 > 15 && $2 < 285 && $3 > 2 && $3 < 39 }
+    /^t/ { k[$2]++; k[$3]++; k[$4]++ } END { for (i in inner) if (inner[i] && k[i] != 8 && k[i] != 4) bad++; print bad + 0 }' alt.hm) == 0"
+set -- $(area alt.hm)
+true_that "the same ground" "$1 - $(area again.hm | cut -d' ' -f1) < 1e-6 && $2 > 0"
+
+# squareness FILE: 90th percentile of how far sections, along which nodes are numbered, are off the right
+# angle to the banks' mean direction, degrees; COLUMNS nodes a section
+squareness() {
+    awk -v m="$2" '/^v/ { x[n] = $2; y[n++] = $3 }
+        END { for (i = 2 * m; i + 3 * m <= n; i += m) {
+                dx = x[i + m] - x[i - m] + x[i + 2 * m - 1] - x[i - 1]; dy = y[i + m] - y[i - m] + y[i + 2 * m - 1] - y[i - 1]
+                wx = x[i + m - 1] - x[i]; wy = y[i + m - 1] - y[i]
+                a = (dx * wx + dy * wy) / sqrt((dx ^ 2 + dy ^ 2) * (wx ^ 2 + wy ^ 2)); if (a < 0) a = -a
+                print atan2(a, sqrt(1 - a * a)) * 180 / 3.14159265358979 } }' n=0 "$1" |
+        sort -g | awk '{ e[NR] = $1 } END { printf "%.4g", e[int(0.9 * NR + 0.999)] }'
+}
+# An S of three arcs: one bank is longer here, the other there.
+awk 'BEGIN { pi = atan2(0, -1); for (k = 0; k < 2; k++) { print "> surface=s side=" (k ? "right" : "left")
+    for (t = 0; t <= 300; t += 5) { a = .9 * sin(t / 300 * 2 * pi); if (t == 0) { cx = cy = 0 }
+        printf "%.6f %.6f 0\n", cx - (k ? -12 : 12) * sin(a), cy + (k ? -12 : 12) * cos(a); cx += 5 * cos(a); cy += 5 * sin(a) } } }' >s.txt
+{ echo '#hm 1 lines text'; echo '#data'; cat s.txt; echo '#end'; } >bow.txt
+plane -40 340 -100 200 >wide.xyz
+# columns FILE: nodes a section of an uncut mesh of triangles, from its numbers of nodes and triangles
+columns() { awk '/^v/ { n++ } /^t/ { p += .5 } END { s = n - p - 1; print int((s - sqrt(s * s - 4 * p)) / 2 + 1.5) }' "$1"; }
+bsmesh -n 0 -c 10/8 -e 8/4 bow.txt wide.xyz >skewed.hm 2>/dev/null
+ok "sections at right angles on request" bsmesh -O -n 0 -o square.hm -c 10/8 -e 8/4 bow.txt wide.xyz
+true_that "off the right angle: $(squareness square.hm $(columns square.hm)), was $(squareness skewed.hm $(columns skewed.hm))" \
+    "$(squareness square.hm $(columns square.hm)) < 3 && $(squareness skewed.hm $(columns skewed.hm)) > 8"
+grep -v '^[>#]' s.txt >bank.points
+true_that "without leaving the banks" "$(nodes square.hm | awk -v m=$(columns square.hm) 'NR % m < 2' |
+    awk 'NR == FNR { x[n] = $1; y[n++] = $2; next } { best = 9; for (i = 0; i + 1 < n; i++) { if (i == 60) continue
+        dx = x[i + 1] - x[i]; dy = y[i + 1] - y[i]; t = (($1 - x[i]) * dx + ($2 - y[i]) * dy) / (dx * dx + dy * dy)
+        t = t < 0 ? 0 : t > 1 ? 1 : t; d = sqrt((x[i] + t * dx - $1) ^ 2 + (y[i] + t * dy - $2) ^ 2); if (d < best) best = d }
+        if (best > most) most = best } END { print most + 0 }' bank.points -) < 0.3"
+set -- $(area square.hm)
+true_that "counter-clockwise" "$2 > 0"
+lines "> surface=l side=left
+0 40 0
+140 40 0
+140 200 0
+> surface=l side=right
+0 0 0
+180 0 0
+180 200 0" >elbow.txt
+ok "denser where it bends" bsmesh -B 15 -n 0 --net bend.net -o elbow.hm -c 20/10 -e 10/8 elbow.txt wide.xyz
+spacing=$(awk '/^>/ { on = /row=0/; n = 0; next } /^#/ { next } on { if (n++) { d = sqrt(($1 - x) ^ 2 + ($2 - y) ^ 2)
+    if (n == 2) first = d; if (!least || d < least) least = d } x = $1; y = $2 } END { print least, first }' bend.net)
+set -- $spacing
+true_that "nearest and first control points: $spacing" "$1 < 0.5 * $2 && $1 > 4 && $2 > 15"
+bsmesh -B 0 -n 0 -c 20/10 -e 10/8 elbow.txt wide.xyz 2>/dev/null | grep '^v' >a
+bsmesh -n 0 -c 20/10 -e 10/8 elbow.txt wide.xyz 2>/dev/null | grep '^v' >b
+same "no bend asked for, equal distances" a b
+sed 's/side=left/side=left bend=15/' elbow.txt >bend_attr.txt
+bsmesh -n 0 -c 20/10 -e 10/8 bend_attr.txt wide.xyz 2>/dev/null | grep '^v' >a
+grep '^v' elbow.hm >b
+same "as an attribute" a b
+
 # --- faces ---
 
 loop='> face=main closed=1
@@ -374,6 +435,12 @@ $left"
 refuse "an unknown side" "side 'top': left, right, inflow, outflow or axis" '> surface=main side=top
 0 0 0
 1 1 0'
+refuse "a bend that is none" "bend=270 is no angle" "$left
+> surface=main side=right bend=270
+0 0 0
+300 0 0"
+refuse "nor as an option" "an angle is from 0 to 180" "$left
+$right" -B -1
 refuse "an axis without half-width" "half_width=20.* at 0 20" '> surface=main side=axis
 0 20 0
 300 20 0'

@@ -18,7 +18,9 @@ static struct {
     const char *control, *elements; /* ALONG/ACROSS, as given */
     double snap;
     bool has_snap;
-    bool quads;
+    bool quads, orthogonal;
+    int diagonal; /* index of the choice */
+    double bend;
     int degree; /* index of the choice: degree - 1 */
     int iterations;
     double gap;
@@ -36,6 +38,13 @@ static const struct hm_option options[] = {
     {'e', "elements", "ALONG/ACROSS", HM_OPT_TEXT, &cmd.elements,
      .help = "length of the elements, m"},
     {'Q', "quads", NULL, HM_OPT_FLAG, &cmd.quads, .help = "quadrilaterals instead of triangles"},
+    {'d', "diagonal", NULL, HM_OPT_CHOICE, &cmd.diagonal,
+     .help = "how cells are cut in two (default terrain: what fits it better)",
+     .choices = "terrain|alternating"},
+    {'O', "orthogonal", NULL, HM_OPT_FLAG, &cmd.orthogonal,
+     .help = "shift control points along the banks until sections cross the river squarely"},
+    {'B', "bend", "DEGREES", HM_OPT_NUMBER, &cmd.bend,
+     .help = "control points so dense that banks turn by no more between two"},
     {'k', "degree", "K", HM_OPT_CHOICE, &cmd.degree, .help = "degree of the surface (default 2)",
      .choices = "1|2|3"},
     {'i', "iterations", "N", HM_OPT_NATURAL, &cmd.iterations,
@@ -85,6 +94,9 @@ static struct hm_rough_size read_sizes(struct hm_cli *cli)
         hm_cli_check(cli, hm_rough_parse_elements(cmd.elements, &size, &d), &d);
     if (cmd.has_snap && cmd.snap < 0)
         hm_cli_die(cli, "--snap must not be negative");
+    if (!(cmd.bend >= 0 && cmd.bend <= 180))
+        hm_cli_die(cli, "--bend: an angle is from 0 to 180 degrees");
+    size.bend = cmd.bend;
     if (cmd.has_snap)
         size.snap = cmd.snap;
     return size;
@@ -323,6 +335,8 @@ int main(int argc, char **argv)
     struct job job = {.how = {.degree = cmd.degree + 1,
                               .iterations = cmd.iterations,
                               .quads = cmd.quads,
+                              .alternating = cmd.diagonal == 1,
+                              .orthogonal = cmd.orthogonal,
                               .threads = hm_cli_threads(cli)}};
     struct hm_diag d = {0};
     if (cmd.net && !strcmp(cmd.net, "-"))

@@ -1,0 +1,90 @@
+# How regular meshes came out: awk -v size="NAME CONTROL ALONG ACROSS NAME …" -f regular.awk breaklines.hm regular.hm
+# Control: distance of control points along; along and across: of the elements asked for, m. Prints a line a
+# surface: its name, the 95th percentile of the distance of its banks from the breaklines they were moved to in
+# control distances, the median edge ratio over the one asked for, and the part of its triangles, in %, whose
+# smallest angle is under 0.8 atan(across / along).
+BEGIN {
+    n = split(size, word)
+    for (i = 1; i <= n; i += 4) {
+        control[word[i]] = word[i + 1]
+        along[word[i]] = word[i + 2]
+        across[word[i]] = word[i + 3]
+    }
+    cell = 30
+    degrees = 45 / atan2(1, 1)
+}
+/^#hm/ { kind = $3; nodes = 0; left = "" }
+/^#name/ { begin($2) }
+/^#end/ && kind == "mesh" { finish() }
+/^#/ { next }
+kind == "lines" && /^>/ { left = ""; next }
+kind == "lines" {
+    if (left != "")
+        segment(left, below, $1, $2)
+    left = $1; below = $2
+    next
+}
+/^v/ { x[nodes] = $2; y[nodes] = $3; bank[nodes] = int($5 / 2) % 2; nodes++ }
+/^t/ { triangle($2, $3, $4) }
+
+function segment(ax, ay, bx, by,    steps, i, place) { # into the cells that it passes, about
+    steps = int(sqrt((bx - ax) ^ 2 + (by - ay) ^ 2) / cell * 2) + 1
+    for (i = 0; i <= steps; i++) {
+        place = int((ax + (bx - ax) * i / steps) / cell) "," int((ay + (by - ay) * i / steps) / cell)
+        if (index(list[place], " " segments " ") == 0)
+            list[place] = list[place] " " segments " "
+    }
+    sx[segments] = ax; sy[segments] = ay; ex[segments] = bx; ey[segments] = by
+    segments++
+}
+function off(px, py,    best, i, j, k, m, one, s, dx, dy, t, d) { # from the nearest breakline
+    best = cell
+    for (i = -1; i <= 1; i++) for (j = -1; j <= 1; j++) {
+        m = split(list[(int(px / cell) + i) "," (int(py / cell) + j)], one, " ")
+        for (k = 1; k <= m; k++) {
+            s = one[k]; dx = ex[s] - sx[s]; dy = ey[s] - sy[s]
+            t = dx * dx + dy * dy > 0 ? ((px - sx[s]) * dx + (py - sy[s]) * dy) / (dx * dx + dy * dy) : 0
+            t = t < 0 ? 0 : t > 1 ? 1 : t
+            d = sqrt((sx[s] + t * dx - px) ^ 2 + (sy[s] + t * dy - py) ^ 2)
+            if (d < best) best = d
+        }
+    }
+    return best
+}
+function begin(name) { surface = name; bads = 0; offs = 0; ratios = 0; split("", edge) }
+function length_(a, b) { return sqrt((x[b] - x[a]) ^ 2 + (y[b] - y[a]) ^ 2) }
+function angle(a, b, c) { # opposite a, by the sides
+    c = (b * b + c * c - a * a) / (2 * b * c)
+    return atan2(sqrt(c < 1 && c > -1 ? 1 - c * c : 0), c) * degrees
+}
+function triangle(a, b, c,    l, m, s, t) {
+    side(a, b); side(b, c); side(c, a)
+    l = length_(a, b); m = length_(b, c); s = length_(c, a) # longest, middle and shortest
+    if (m > l) { t = l; l = m; m = t }
+    if (s > m) { t = m; m = s; s = t }
+    if (m > l) { t = l; l = m; m = t }
+    ratio[ratios++] = m / s
+    if (angle(s, m, l) < 0.8 * atan2(across[surface], along[surface]) * degrees)
+        bads++
+}
+function side(a, b) { # a piece of a bank between control points that were moved
+    if (!bank[a] || !bank[b] || (a, b) in edge)
+        return
+    edge[a, b] = edge[b, a] = 1
+    distance[offs++] = off(x[a], y[a])
+    distance[offs++] = off((x[a] + x[b]) / 2, (y[a] + y[b]) / 2)
+}
+function quantile(v, n, part,    i, j, k, t, gap) { # sorts v (Shell)
+    for (gap = int(n / 2); gap > 0; gap = int(gap / 2))
+        for (i = gap; i < n; i++) {
+            t = v[i]
+            for (j = i; j >= gap && v[j - gap] > t; j -= gap) v[j] = v[j - gap]
+            v[j] = t
+        }
+    k = int(part * n)
+    return n > 0 ? v[k < n ? k : n - 1] : 0
+}
+function finish() {
+    printf "%s %.4f %.4f %.3f\n", surface, quantile(distance, offs, 0.95) / control[surface],
+        quantile(ratio, ratios, 0.5) * across[surface] / along[surface], 100 * bads / ratios
+}

@@ -42,7 +42,7 @@ static const struct hm_option options[] = {
      .help = "how cells are cut in two (default terrain: what fits it better)",
      .choices = "terrain|alternating"},
     {'O', "orthogonal", NULL, HM_OPT_FLAG, &cmd.orthogonal,
-     .help = "shift control points along the banks until sections cross the river squarely"},
+     .help = "shift control points until sections cross the river squarely"},
     {'B', "bend", "DEGREES", HM_OPT_NUMBER, &cmd.bend,
      .help = "control points so dense that banks turn by no more between two"},
     {'k', "degree", "K", HM_OPT_CHOICE, &cmd.degree, .help = "degree of the surface (default 2)",

@@ -1,8 +1,13 @@
 #include "hm_outline.h"
 
 #include "hm_mouth.h"
+#include "hm_plane.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+/* The outline hugs the higher border where it leaves that at a smaller slope than this. */
+static const double hugging = 0.17;
 
 /* Walking the lower mesh's old outline for the stretches along the gap. */
 struct walk {
@@ -200,11 +205,83 @@ static enum hm_err add_stretch(struct hm_outline *o, const struct hm_stretches *
     return err;
 }
 
+/* Node k of a stretch, counted from one of its ends. */
+static int32_t node_from(const struct hm_stretches *c, const struct hm_stretch *stretch,
+                         bool at_end, size_t k)
+{
+    return c->node[stretch->first + (at_end ? stretch->count - 1 - k : k)];
+}
+
+static double *place_of(const struct hm_border *b, const struct hm_crossing *x, double place[2])
+{
+    const double *from = hm_border_from(b, x->edge), *to = hm_border_to(b, x->edge);
+    for (int k = 0; k < 2; k++)
+        place[k] = from[k] + x->at * (to[k] - from[k]);
+    return place;
+}
+
+/* Move a crossing to the place of the border nearest to p. */
+static void move_crossing(const struct hm_border *b, struct hm_crossing *x, const double *p)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < b->n; i++) {
+        double apart = hm_plane_distance(p, hm_border_from(b, i), hm_border_to(b, i));
+        if (apart >= least)
+            continue;
+        least = apart;
+        x->edge = i;
+        x->at = hm_plane_foot(p, hm_border_from(b, i), hm_border_to(b, i));
+    }
+}
+
+static double border_distance(const struct hm_border *b, const double *p)
+{
+    struct hm_crossing nearest = {0};
+    double foot[2];
+    move_crossing(b, &nearest, p);
+    place_of(b, &nearest, foot);
+    return hypot(p[0] - foot[0], p[1] - foot[1]);
+}
+
+/* Two meshes of one river, end to end, have the same banks, so that the lower outline hugs the
+ * higher border before it really leaves it, at a corner. Of a stretch that begins (or ends) so, the
+ * nodes that hug are left out, and the crossing is where the next one leaves. */
+static void stop_hugging(struct hm_stretches *c, struct hm_stretch *stretch, bool at_end,
+                         const struct hm_sides *s)
+{
+    int64_t number = at_end ? stretch->to : stretch->from;
+    if (number < 0)
+        return;
+    struct hm_crossing *x = &c->crossing[number];
+    double start[2];
+    place_of(s->higher, x, start);
+    size_t k = 0;
+    for (size_t i = 0; i + 1 < stretch->count; i++) {
+        int32_t node = node_from(c, stretch, at_end, i);
+        const double *p = hm_mesh_xy(s->lower, node);
+        double far = border_distance(s->higher, p);
+        double way = hypot(p[0] - start[0], p[1] - start[1]);
+        if (s->kept[node] || far > hugging * fmax(way, s->size[node]))
+            break;
+        if (far <= hugging * way)
+            k = i + 1;
+    }
+    if (k == 0)
+        return;
+    move_crossing(s->higher, x, hm_mesh_xy(s->lower, node_from(c, stretch, at_end, k)));
+    stretch->first += at_end ? 0 : k;
+    stretch->count -= k;
+}
+
 enum hm_err hm_outline_make(struct hm_outline *o, const struct hm_sides *s, struct hm_diag *d)
 {
     *o = (struct hm_outline){0};
     struct hm_stretches c = {0};
     enum hm_err err = find_stretches(&c, s, d);
+    for (size_t i = 0; !err && i < c.nstretches; i++)
+        if (!is_grazing(&c, &c.stretch[i], s))
+            for (int at_end = 0; at_end < 2; at_end++)
+                stop_hugging(&c, &c.stretch[i], at_end, s);
     if (!err)
         err = hm_mouth_find(&c, s->higher, &o->widened, d);
     for (size_t i = 0; !err && i < c.nstretches; i++)

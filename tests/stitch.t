@@ -180,6 +180,18 @@ angles out.hm main.hm acute.hm >acute
 true_that "poor triangles are listed: $(grep -c 'degrees at' said) of $(cut -d' ' -f3 acute)" \
     "$(grep -c 'degrees at' said) == $(cut -d' ' -f3 acute) && $(cut -d' ' -f3 acute) > 0"
 
+# --- two meshes of one river, end to end: their banks lie on each other, but for centimetres ---
+cp /dev/null ends
+for end in "245 0 495 1 40" "234.6 .187 484.6 -.241 40" "222.7 -.024 472.7 -.168 40" "247.5 0 497.5 .86 40.02" \
+    "267.8 .94 517.8 -6.5 40.06" "255 0 500 0 40" "231 -.4 481 .5 39.4"; do
+    channel on $end 7.9 3.3 >on.hm
+    stitch main.hm on.hm >out.hm 2>/dev/null
+    joined "end to end, $end" out.hm main.hm on.hm
+    angles out.hm main.hm on.hm >>ends
+done
+true_that "end to end: $(awk '{ n += $1; poor += $3 } END { print poor " of " n " triangles under 15 degrees" }' ends)" \
+    "$(awk '{ n += $1; poor += $3 } END { print (n > 100) * 100 * poor / n }' ends) <= 1"
+
 # --- more than two ---
 channel north 100 150 100 0 20 8 4 >north.hm
 channel south 107 -150 107 0 20 8 4 >south.hm

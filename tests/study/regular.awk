@@ -1,8 +1,8 @@
 # How regular meshes came out: awk -v size="NAME CONTROL ALONG ACROSS NAME …" -f regular.awk breaklines.hm regular.hm
 # Control: distance of control points along; along and across: of the elements asked for, m. Prints a line a
 # surface: its name, the 95th percentile of the distance of its banks from the breaklines they were moved to in
-# control distances, the median edge ratio over the one asked for, and the part of its triangles, in %, whose
-# smallest angle is under 0.8 atan(across / along).
+# control distances (0 without such), the median edge ratio over the one asked for, and the part of its triangles, in %, whose
+# smallest angle is under 0.8 atan(across / along); of surfaces in `faced` without those at a cut.
 BEGIN {
     n = split(size, word)
     for (i = 1; i <= n; i += 4) {
@@ -24,7 +24,8 @@ kind == "lines" {
     left = $1; below = $2
     next
 }
-/^v/ { x[nodes] = $2; y[nodes] = $3; bank[nodes] = int($5 / 2) % 2; nodes++ }
+/^v/ { x[nodes] = $2; y[nodes] = $3; bank[nodes] = int($5 / 2) % 2
+    cut[nodes] = $5 == 5 && faced == surface; nodes++ }
 /^t/ { triangle($2, $3, $4) }
 
 function segment(ax, ay, bx, by,    steps, i, place) { # into the cells that it passes, about
@@ -63,6 +64,8 @@ function triangle(a, b, c,    l, m, s, t) {
     if (m > l) { t = l; l = m; m = t }
     if (s > m) { t = m; m = s; s = t }
     if (m > l) { t = l; l = m; m = t }
+    if (cut[a] || cut[b] || cut[c])
+        return
     ratio[ratios++] = m / s
     if (angle(s, m, l) < 0.8 * atan2(across[surface], along[surface]) * degrees)
         bads++

@@ -332,23 +332,6 @@ lines "$rough
 100 10.2 0" >tiny.txt
 must_fail "a loop too small for -F" 2 "surface 'main'" bsmesh -F -c 10/8 -e 5/4 tiny.txt plane.xyz
 
-# --- given up where the surface misses the terrain: a groyne from the right bank to the middle ---
-
-awk 'BEGIN { for (y = -40; y <= 80; y += 4) for (x = -40; x <= 340; x += 4)
-    printf "%g %g %.17g\n", x, y, 0.01 * x - 0.02 * y + 5 + (x >= 144 && x <= 156 && y < 20) * 2 }' >groyne.xyz
-ok "a groyne in the bed" bsmesh -m .2 -o m.hm -c 20/8 -e 10/4 lines.txt groyne.xyz
-given=$(sed -n 's/.*main: \([0-9]*\) of 720 elements given up.*/\1/p' tap.err)
-true_that "elements given up are said and gone: $given" "$given > 30 && $given < 200 && $(grep -c '^t' m.hm) == 720 - $given"
-true_that "no node on the groyne" "$(most m.hm '$1 > 140 && $1 < 160 && $2 < 20 && $2 > -2') == 0"
-true_that "the other side stays" "$(nodes m.hm | awk '$1 > 145 && $1 < 155 && $2 > 35' | wc -l) >= 3"
-true_that "far from it nothing goes" "$(nodes m.hm | awk '$1 < 105 || $1 > 195' | wc -l) == 22 * 13"
-ok "and the irregular mesh fills the hole" sh -c 'trimesh -m terrain -N 400 -l 2 groyne.xyz m.hm >flood.hm 2>/dev/null &&
-    stitch m.hm flood.hm >whole.hm 2>/dev/null && quality --check valid whole.hm groyne.xyz >report'
-ok "-m without misfit changes nothing" sh -c 'bsmesh -c 10/8 -e 10/4 lines.txt plane.xyz 2>/dev/null | grep "^[vt]" >a
-    bsmesh -m .05 -c 10/8 -e 10/4 lines.txt plane.xyz 2>/dev/null | grep "^[vt]" >b; cmp a b'
-must_fail "nothing left" 2 "nothing is left of surface 'main'.* at " sh -c "awk '{ print \$1, \$2, \$3 + 3 * (NR % 2) }' groyne.xyz |
-    bsmesh -m .01 -c 20/8 -e 10/4 lines.txt -"
-
 # --- gaps in the terrain ---
 
 awk '!($1 > 100 && $1 < 200 && $2 > 0 && $2 < 50)' plane.xyz >gap.xyz

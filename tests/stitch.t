@@ -237,6 +237,29 @@ stitch -w 25 -g 2000 main.hm x.hm flat.xyz >out.hm 2>/dev/null
 true_that "the terrain gives the inside of the gap its height: $(grep -c '^v .* 99 0 2$' out.hm) nodes" \
     "$(grep -c '^v .* 99 0 2$' out.hm) > 2 && $(grep -c '^v .* 99 1' out.hm) == 0"
 
+# --- given up where the surface misses the terrain: a groyne from the bank to the middle ---
+awk 'BEGIN { for (y = -40; y <= 40; y += 4) for (x = -20; x <= 320; x += 4)
+    printf "%g %g %.17g\n", x, y, 0.01 * x - 0.02 * y + 5 + (x >= 144 && x <= 156 && y < 0) * 2 }' >groyne.xyz
+ok "a groyne in the bed" stitch -m .2 -o m.hm main.hm groyne.xyz
+given=$(sed -n 's/^stitch: \([0-9]*\) of 600 elements given up.*/\1/p' tap.err)
+true_that "elements given up are said and gone: $given" "$given > 30 && $given < 200 && $(grep -c '^t' m.hm) == 600 - $given"
+true_that "no node on the groyne" "$(awk '/^v/ && $2 > 142 && $2 < 158 && $3 < 0' m.hm | wc -l) == 0"
+true_that "the other side stays" "$(awk '/^v/ && $2 > 145 && $2 < 155 && $3 > 15' m.hm | wc -l) == 2"
+true_that "far from it nothing goes" "$(awk '/^v/ && ($2 < 105 || $2 > 195)' m.hm | wc -l) == 22 * 11"
+ok "sound" sound m.hm
+ok "and the irregular mesh fills the hole" sh -c 'trimesh -m terrain -N 400 -l 2 groyne.xyz m.hm >flood.hm 2>/dev/null &&
+    stitch m.hm flood.hm >whole.hm 2>/dev/null && quality --check valid whole.hm groyne.xyz >report'
+ok "quadrilaterals, and a tributary" sh -c 'stitch -c -m .2 main.hm t.hm groyne.xyz >q.hm 2>/dev/null'
+sed 's/^#role/#string inflow 0 31 62\n#role/' main.hm >named.hm
+stitch -m .2 named.hm groyne.xyz 2>/dev/null >m.hm
+true_that "strings keep their nodes" "\"$(awk '/^#string inflow/ { split($0, s) } /^v/ { p[n++ + 0] = $2 "," $3 } END { print p[s[3]], p[s[4]], p[s[5]] }' m.hm)\" == \"0,-20 0,-16 0,-12\""
+awk '!/^#/ { print $1, $2, .01 * $1 - .02 * $2 + 5 }' groyne.xyz >smooth.xyz
+stitch -m .05 main.hm smooth.xyz 2>/dev/null | grep '^[vt]' >a
+stitch main.hm 2>/dev/null | grep '^[vt]' >b
+same "without misfit nothing changes" a b
+must_fail "a misfit to nothing" 2 'misfit needs the terrain' stitch -m .2 main.hm
+must_fail "nothing left" 2 'no elements' sh -c "awk '{ print \$1, \$2, \$3 + 3 * (NR % 2) }' groyne.xyz | stitch -m .01 main.hm -"
+
 # --- by common nodes ---
 channel left 0 0 50 0 20 10 4 triangles irregular | sed 's/^#name .*/#name flood/; s/^\(v .*\) 0 0$/\1 2 0/' >left.hm
 channel right 50 0 100 0 20 10 4 | awk '/^v/ { $4 += 1 } { print }' >right.hm

@@ -2,7 +2,6 @@
 #include "hm_axis.h"
 #include "hm_cli.h"
 #include "hm_facefit.h"
-#include "hm_misfit.h"
 #include "hm_output.h"
 #include "hm_regular.h"
 #include "hm_rough.h"
@@ -25,7 +24,6 @@ static struct {
     int iterations;
     double gap;
     bool fit;
-    double misfit;
     const char *surface, *net;
 } cmd = {.degree = 1, .iterations = 5};
 
@@ -53,8 +51,6 @@ static const struct hm_option options[] = {
      .help = "wider gaps between points give no height, m (default 5 ALONG)"},
     {'F', "fit-face", NULL, HM_OPT_FLAG, &cmd.fit,
      .help = "move the nodes of a cut onto the face loop"},
-    {'m', "misfit", "M", HM_OPT_POSITIVE, &cmd.misfit,
-     .help = "give up elements that miss the terrain by more, root mean square, m"},
     {0, "net", "FILE", HM_OPT_TEXT, &cmd.net,
      .help = "write the control points, and how they moved, there"},
     {'s', "surface", "NAME", HM_OPT_TEXT, &cmd.surface,
@@ -240,34 +236,6 @@ static void make_header(struct hm_cli *cli, const struct job *job, const struct 
     free(owners);
 }
 
-/* Give up the elements that miss the terrain. */
-static void drop_misfits(struct hm_cli *cli, const struct job *job, const struct hm_rough *rough,
-                         struct hm_mesh *mesh)
-{
-    struct hm_diag d = {0};
-    struct hm_face_cut cut = {0};
-    size_t all = mesh->nelems;
-    const double at[2] = {mesh->node[0].x, mesh->node[0].y};
-    bool *keep = hm_alloc(all, sizeof *keep);
-    if (!keep)
-        hm_cli_die(cli, "out of memory");
-    hm_cli_check(cli, hm_misfit_mark(mesh, job->terrain, cmd.misfit, job->how.threads, keep, &d),
-                 &d);
-    hm_cli_check(cli, hm_face_keep(mesh, keep, &cut, &d), &d);
-    free(keep);
-    if (mesh->nelems == 0)
-        hm_cli_check(cli,
-                     hm_fail_at(&d, HM_EGEOM, at[0], at[1],
-                                "nothing is left of surface '%s' where it misses the terrain by "
-                                "less than %g m (-m)",
-                                rough->name, cmd.misfit),
-                     &d);
-    hm_cli_say(cli,
-               "%s: %lld of %zu elements given up where they miss the terrain by more than "
-               "%g m, and around",
-               rough->name, (long long)(cut.dropped + cut.pinched), all, cmd.misfit);
-}
-
 static void mesh_surface(struct hm_cli *cli, struct job *job, const struct hm_rough *rough,
                          struct hm_mesh *mesh)
 {
@@ -282,8 +250,6 @@ static void mesh_surface(struct hm_cli *cli, struct job *job, const struct hm_ro
                           ? hm_facefit_apply(mesh, rough, job->face, job->nfaces, &cut, &fit, &d)
                           : hm_face_apply(mesh, rough, job->face, job->nfaces, false, &cut, &d);
     hm_cli_check(cli, err, &d);
-    if (cmd.misfit > 0)
-        drop_misfits(cli, job, rough, mesh);
     hm_cli_check(cli, hm_regular_flag_border(mesh, &d), &d);
     tell(cli, job, rough, &s, &cut, &fit, mesh);
     if (cmd.net)

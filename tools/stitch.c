@@ -2,8 +2,10 @@
  * is filled; the others are joined to them by their common nodes. */
 #include "hm_cli.h"
 #include "hm_elem.h"
+#include "hm_face.h"
 #include "hm_material.h"
 #include "hm_meshcheck.h"
+#include "hm_misfit.h"
 #include "hm_owners.h"
 #include "hm_rcm.h"
 #include "hm_stitch.h"
@@ -26,7 +28,7 @@ static struct {
     bool components;
     bool renumber;
     const char *name;
-    double gap;
+    double gap, misfit;
 } cmd;
 
 static const struct hm_option options[] = {
@@ -40,6 +42,8 @@ static const struct hm_option options[] = {
      .help = "the result may be in several pieces"},
     {'g', "gap", "M", HM_OPT_POSITIVE, &cmd.gap,
      .help = "measurements farther apart tell no height, m (default 5 elements)"},
+    {'m', "misfit", "M", HM_OPT_POSITIVE, &cmd.misfit,
+     .help = "give up elements that miss the terrain by more, root mean square, m"},
     {'r', "renumber", NULL, HM_OPT_FLAG, &cmd.renumber,
      .help = "renumber for a small bandwidth (reverse Cuthill-McKee)"},
     {'N', "name", "NAME", HM_OPT_TEXT, &cmd.name,
@@ -82,13 +86,18 @@ static double usual_gap(const struct hm_inputs *in)
     return 5 * longest;
 }
 
-/* The terrain for nodes in gaps; NULL when there is none, or no two meshes could have a gap. */
+/* The terrain, for nodes in gaps and for misfits; NULL when there is none, or it is not needed. */
 static struct hm_terrain *build_terrain(struct hm_cli *cli, const struct hm_inputs *in)
 {
     size_t regular = 0;
     for (size_t i = 0; i < in->nmeshes; i++)
         regular += is_regular(&in->mesh[i]);
-    if (regular < 2 || in->npoints + in->ngrids == 0)
+    bool known = in->npoints + in->ngrids > 0;
+    if (cmd.misfit > 0 && !known)
+        hm_cli_die(cli, "--misfit needs the terrain: measurements or a grid");
+    if (cmd.misfit > 0 && regular < in->nmeshes)
+        hm_cli_die(cli, "--misfit is for regular meshes alone, before trimesh fills the holes");
+    if (!known || (regular < 2 && !(cmd.misfit > 0)))
         return NULL;
     struct hm_terrain *terrain;
     struct hm_terrain_counts counts;
@@ -176,6 +185,46 @@ static void add_mesh(struct hm_cli *cli, struct hm_join *j, const struct hm_mesh
     free(map);
 }
 
+/* Where nodes went whose mesh lost some: both lists are in one order. Free it. */
+static int32_t *map_of_kept(struct hm_cli *cli, const double (*was)[2], size_t n,
+                            const struct hm_mesh *m)
+{
+    int32_t *map = hm_alloc(n, sizeof *map);
+    if (!map)
+        hm_cli_die(cli, "out of memory");
+    for (size_t i = 0, k = 0; i < n; i++) {
+        bool kept = k < m->nnodes && m->node[k].x == was[i][0] && m->node[k].y == was[i][1];
+        map[i] = kept ? (int32_t)k++ : -1;
+    }
+    return map;
+}
+
+/* Give up the elements that miss the terrain. */
+static void drop_misfits(struct hm_cli *cli, struct hm_mesh *m, const struct hm_terrain *terrain,
+                         struct hm_strings *strings)
+{
+    struct hm_diag d = {0};
+    struct hm_face_cut cut = {0};
+    size_t elements = m->nelems, nodes = m->nnodes;
+    bool *keep = hm_alloc(elements, sizeof *keep);
+    double(*was)[2] = hm_alloc(nodes, sizeof *was);
+    if (!keep || !was)
+        hm_cli_die(cli, "out of memory");
+    for (size_t i = 0; i < nodes; i++)
+        memcpy(was[i], hm_mesh_xy(m, (int32_t)i), sizeof was[i]);
+    hm_cli_check(cli, hm_misfit_mark(m, terrain, cmd.misfit, hm_cli_threads(cli), keep, &d), &d);
+    hm_cli_check(cli, hm_face_keep(m, keep, &cut, &d), &d);
+    hm_cli_say(cli,
+               "%lld of %zu elements given up where they miss the terrain by more than %g m, and "
+               "around",
+               (long long)(cut.dropped + cut.pinched), elements, cmd.misfit);
+    int32_t *map = map_of_kept(cli, was, nodes, m);
+    hm_strings_renumber(strings, 0, map);
+    free(map);
+    free(was);
+    free(keep);
+}
+
 /* Regular meshes first, whatever their place: the others were made around them. */
 static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_join *j,
                      struct hm_strings *strings)
@@ -190,6 +239,8 @@ static void join_all(struct hm_cli *cli, const struct hm_inputs *in, struct hm_j
             hm_cli_progress(cli, "meshes", (double)done++ / (double)in->nmeshes);
             add_mesh(cli, j, &in->mesh[i], terrain, strings);
         }
+    if (cmd.misfit > 0)
+        drop_misfits(cli, &j->mesh, terrain, strings);
     hm_terrain_free(terrain);
 }
 

@@ -51,7 +51,7 @@ FUZZ      := $(B)/fuzz/fuzz_reader $(B)/fuzz/fuzz_tri $(IMPORTED:%=$(B)/fuzz/fuz
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
 
-.PHONY: all help deps demo pictures check check-long check-san fuzz bench lint install clean FORCE
+.PHONY: all help deps demo casestudies pictures check check-long check-san fuzz bench lint install clean FORCE
 .DELETE_ON_ERROR:
 
 all: $(BIN)
@@ -69,6 +69,7 @@ help:
 #: make check-long the longer ones;  make check-san: make check under ASan and UBSan
 #: make fuzz       fuzz targets (SECONDS=600 each, there are twelve; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
+#: make casestudies: the paper's case studies with pictures and a table of goals, in ./casestudies
 #: make pictures the pictures of the README, from the demo (that of the 3D view needs Chromium)
 #: make lint       format, static checks, man pages
 #: make deps       install missing Debian packages (root, or sudo without a password)
@@ -138,6 +139,12 @@ pictures: demo
 	$(Q)tests/chromium.py demo/view.html size 900 500 drag 600 300 60 -10 wheel 560 260 -260 \
 	    click 458 331 shot man/view.jpg
 
+# The case studies of the paper; each ends with a table of goals, and all run before one that is missed counts.
+casestudies: deps-quiet
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN)
+	$(Q)status=0; for study in junction danube; do echo "== $$study"; \
+	    B=$(CURDIR)/$(B) tests/study/$$study casestudies/$$study || status=1; done; exit $$status
+
 check: deps-quiet
 	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)
 	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/*.t) $(UNIT))
@@ -205,7 +212,8 @@ lint:
 	    $(filter-out %.cpp,$(filter %.c,$(SOURCES)))
 	$(Q)$(MAKE) --no-print-directory B=build/lint CFLAGS='-O2 -Werror' all $(patsubst $(B)/%,build/lint/%,$(GEN) $(UNIT))
 	$(Q)mandoc -T lint -W warning $(wildcard man/*.[157])
-	$(Q)for f in tests/*.t tests/long/*.t tests/bench/*.sh tests/run tests/deps tests/demo .ci/run; do \
+	$(Q)for f in tests/*.t tests/long/*.t tests/bench/*.sh tests/run tests/deps tests/demo tests/study/study.sh tests/study/junction \
+	    tests/study/danube .ci/run; do \
 	    [ ! -e $$f ] || bash -n $$f || exit 1; done
 
 compile_commands.json: FORCE
@@ -232,6 +240,6 @@ install: all
 	$(Q)install -m 644 man/quality.schema.json $(DESTDIR)$(PREFIX)/share/hybridmesh/
 
 clean:
-	rm -rf build demo compile_commands.json
+	rm -rf build demo casestudies compile_commands.json
 
 -include $(wildcard $(B)/obj/*.d $(B)/bin/*.d $(B)/test/*.d $(B)/bench/*.d $(B)/fuzz/*.d $(B)/fuzz/obj/*.d)

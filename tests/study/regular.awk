@@ -2,7 +2,9 @@
 # Control: distance of control points along; along and across: of the elements asked for, m. Prints a line a
 # surface: its name, the 95th percentile of the distance of its banks from the breaklines they were moved to in
 # control distances (0 without such), the median edge ratio over the one asked for, and the part of its triangles, in %, whose
-# smallest angle is under 0.8 atan(across / along); of surfaces in `faced` without those at a cut.
+# smallest angle is under 0.8 atan(across / along): of meshes that are whole only outside sharp bends, in
+# which a bank turns, over a control distance to either side, on a radius smaller than the river is wide there;
+# of the surface `faced` without those at its cut. Last the part of the triangles that were counted for that, in %.
 BEGIN {
     n = split(size, word)
     for (i = 1; i <= n; i += 4) {
@@ -26,7 +28,7 @@ kind == "lines" {
 }
 /^v/ { x[nodes] = $2; y[nodes] = $3; bank[nodes] = int($5 / 2) % 2
     cut[nodes] = $5 == 5 && faced == surface; nodes++ }
-/^t/ { triangle($2, $3, $4) }
+/^t/ { ta[triangles] = $2; tb[triangles] = $3; tc[triangles++] = $4 }
 
 function segment(ax, ay, bx, by,    steps, i, place) { # into the cells that it passes, about
     steps = int(sqrt((bx - ax) ^ 2 + (by - ay) ^ 2) / cell * 2) + 1
@@ -52,13 +54,55 @@ function off(px, py,    best, i, j, k, m, one, s, dx, dy, t, d) { # from the nea
     }
     return best
 }
-function begin(name) { surface = name; bads = 0; offs = 0; ratios = 0; split("", edge) }
+function begin(name) { surface = name; bads = 0; offs = 0; ratios = 0; counted = 0; triangles = 0; split("", edge) }
+# Nodes are numbered section by section, `columns` in each, as long as the mesh is whole: 0 when it is not.
+function count_columns(    sum, product, m) {
+    product = triangles / 2
+    sum = nodes - product - 1
+    if (sum * sum < 4 * product)
+        return 0
+    m = int((sum - sqrt(sum * sum - 4 * product)) / 2 + 1.5)
+    return nodes % m == 0 && (m - 1) * (nodes / m - 1) == product ? m : 0
+}
+function turn(a, b, c,    ux, uy, wx, wy) { # of the way a-b-c, radians
+    ux = x[b] - x[a]; uy = y[b] - y[a]; wx = x[c] - x[b]; wy = y[c] - y[b]
+    ux = atan2(ux * wy - uy * wx, ux * wx + uy * wy)
+    return ux < 0 ? -ux : ux
+}
+function is_sharp(i, columns,    k, side, a, b, c) { # the section that begins with node i * columns
+    k = int(control[surface] / along[surface] + 0.5)
+    k = k < 1 ? 1 : k
+    if (i < k || (i + k + 1) * columns > nodes)
+        return 0
+    for (side = 0; side < 2; side++) {
+        a = (i - k) * columns + side * (columns - 1); b = i * columns + side * (columns - 1)
+        c = (i + k) * columns + side * (columns - 1)
+        if (turn(a, b, c) * length_(i * columns, (i + 1) * columns - 1) * 2 > length_(a, b) + length_(b, c))
+            return 1
+    }
+    return 0
+}
+function measure_triangles(    columns, i, k, section) {
+    columns = surface == faced ? 0 : count_columns()
+    split("", sharp)
+    for (i = 0; columns && i < nodes / columns; i++)
+        sharp[i] = is_sharp(i, columns)
+    for (k = 0; k < triangles; k++) {
+        section = 0
+        if (columns) {
+            i = ta[k] < tb[k] ? ta[k] : tb[k]
+            i = i < tc[k] ? i : tc[k]
+            section = int(i / columns)
+        }
+        triangle(ta[k], tb[k], tc[k], columns && (sharp[section] || sharp[section + 1]))
+    }
+}
 function length_(a, b) { return sqrt((x[b] - x[a]) ^ 2 + (y[b] - y[a]) ^ 2) }
 function angle(a, b, c) { # opposite a, by the sides
     c = (b * b + c * c - a * a) / (2 * b * c)
     return atan2(sqrt(c < 1 && c > -1 ? 1 - c * c : 0), c) * degrees
 }
-function triangle(a, b, c,    l, m, s, t) {
+function triangle(a, b, c, bend,    l, m, s, t) {
     side(a, b); side(b, c); side(c, a)
     l = length_(a, b); m = length_(b, c); s = length_(c, a) # longest, middle and shortest
     if (m > l) { t = l; l = m; m = t }
@@ -67,7 +111,8 @@ function triangle(a, b, c,    l, m, s, t) {
     if (cut[a] || cut[b] || cut[c])
         return
     ratio[ratios++] = m / s
-    if (angle(s, m, l) < 0.8 * atan2(across[surface], along[surface]) * degrees)
+    counted += !bend
+    if (!bend && angle(s, m, l) < 0.8 * atan2(across[surface], along[surface]) * degrees)
         bads++
 }
 function side(a, b) { # a piece of a bank between control points that were moved
@@ -88,6 +133,7 @@ function quantile(v, n, part,    i, j, k, t, gap) { # sorts v (Shell)
     return n > 0 ? v[k < n ? k : n - 1] : 0
 }
 function finish() {
-    printf "%s %.4f %.4f %.3f\n", surface, quantile(distance, offs, 0.95) / control[surface],
-        quantile(ratio, ratios, 0.5) * across[surface] / along[surface], 100 * bads / ratios
+    measure_triangles()
+    printf "%s %.4f %.4f %.3f %.0f\n", surface, quantile(distance, offs, 0.95) / control[surface],
+        quantile(ratio, ratios, 0.5) * across[surface] / along[surface], counted ? 100 * bads / counted : 0, 100 * counted / triangles
 }

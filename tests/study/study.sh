@@ -18,11 +18,11 @@ size=${2:-whole}
 ok=0
 missed=0
 
-# draw FILE …: a picture, where hmdraw is built
+# draw FILE …: a picture, of the whole study and where hmdraw is built
 draw() {
     out=$1
     shift
-    ! command -v hmdraw >/dev/null || hmdraw --quiet -o "$out" "$@"
+    [ $size = small ] || ! command -v hmdraw >/dev/null || hmdraw --quiet -o "$out" "$@"
 }
 # goal WHAT VALUE SIGN GOAL: a row of the table; SIGN is <= or >=
 goal() {
@@ -47,11 +47,11 @@ of_report() {
 # regular_goals SIZES FACED: regular.hm against breaklines.hm and the sizes asked for (regular.awk)
 regular_goals() {
     awk -v size="$1" -v faced="$2" -f "$study/regular.awk" breaklines.hm regular.hm >regular.txt
-    while read -r name bank ratio sharp; do
+    while read -r name bank ratio sharp counted; do
         [ "$bank" = 0.0000 ] || goal "$name: bank off its breakline, p95, control distances" "$bank" "<=" 0.1
         goal "$name: median edge ratio over the one asked for, off 1" \
             "$(awk -v r="$ratio" 'BEGIN { printf "%.4f", (r > 1 ? r - 1 : 1 - r) }')" "<=" 0.1
-        goal "$name: triangles under 0.8 atan(1/ratio), %" "$sharp" "<=" 1
+        goal "$name: under 0.8 atan(1/ratio), % of $counted % of its triangles" "$sharp" "<=" 1
     done <regular.txt
 }
 # seam_goals: what stitch said, in said.txt
@@ -62,8 +62,10 @@ seam_goals() {
     goal "seams: of $all triangles at least 15 degrees, %" "$good" ">=" 99
     sed -n 's/^stitch: *\([0-9.]* degrees at.*\)/    under that: \1/p' said.txt
 }
-# neighbour_goal NAME: report.txt, on areas of neighbours
-neighbour_goal() {
-    goal "$1: neighbours with area ratio up to 2, %" \
-        "$(awk '/area ratio over 2/ { printf "%.2f", 100 - 100 * $5 / $7 }' report.txt)" ">=" 98
+# neighbour_goals: areas of neighbours in river.hm, the regular meshes with their seams, and in hybrid.hm
+neighbour_goals() {
+    for mesh in river hybrid; do
+        goal "$mesh mesh: neighbours with area ratio up to 2, %" "$(quality --quiet $mesh.hm survey.xyz |
+            awk '/area ratio over 2/ { printf "%.2f", 100 - 100 * $5 / $7 }')" ">=" 98
+    done
 }

@@ -2,88 +2,7 @@
 # stitch: channels that cross, join, touch and miss each other; meshes joined node by node.
 . "${0%/*}/tap.sh"
 
-# channel NAME X0 Y0 X1 Y1 WIDTH ALONG ACROSS [quads|triangles [ROLE]]: a straight regular mesh
-channel() {
-    awk -v name="$1" -v x0="$2" -v y0="$3" -v x1="$4" -v y1="$5" -v width="$6" -v along="$7" \
-        -v across="$8" -v kind="${9:-triangles}" -v role="${10:-regular}" 'BEGIN {
-        length_ = sqrt((x1 - x0) ^ 2 + (y1 - y0) ^ 2)
-        n = int(length_ / along + .5); m = int(width / across + .5)
-        ux = (x1 - x0) / length_; uy = (y1 - y0) / length_
-        printf "#hm 1 mesh text\n#name %s\n#role %s\n%s#units m m m\n#data\n", name, role,
-            role == "regular" ? "#owners " name "\n" : ""
-        for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
-            s = length_ * i / n; t = width * (j / m - .5)
-            x = x0 + ux * s - uy * t; y = y0 + uy * s + ux * t
-            printf "v %.9g %.9g %.9g %d %d\n", x, y, .01 * x - .02 * y + 5,
-                i == 0 || j == 0 || i == n || j == m, role == "regular"
-        }
-        for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
-            a = j * (n + 1) + i; b = a + 1; c = b + n + 1; d = a + n + 1
-            if (kind == "quads") printf "q %d %d %d %d 0\n", a, b, c, d
-            else if ((i + j) % 2) printf "t %d %d %d 0\nt %d %d %d 0\n", a, b, c, a, c, d
-            else printf "t %d %d %d 0\nt %d %d %d 0\n", a, b, d, b, c, d
-        }
-        print "#end" }'
-}
-
-area() { # of the elements of a mesh
-    awk '/^v/ { x[n + 0] = $2; y[n++] = $3 }
-        /^[tq]/ { k = /^t/ ? 3 : 4
-            for (i = 0; i < k; i++) { a = $(2 + i); b = $(2 + (i + 1) % k); s += x[a] * y[b] - x[b] * y[a] } }
-        END { printf "%.17g", s / 2 }' "$1"
-}
-
-elements() { # one line an element, by coordinates, from its lowest corner on
-    awk '/^#hm/ { n = 0 } /^v/ { p[n++ + 0] = $2 "," $3 }
-        /^[tq]/ { k = /^t/ ? 3 : 4; low = 0
-            for (i = 1; i < k; i++) if (p[$(2 + i)] < p[$(2 + low)]) low = i
-            line = ""; for (i = 0; i < k; i++) line = line " " p[$(2 + (low + i) % k)]
-            print line }' "$@" | sort
-}
-
-nodes() { # x, y and z of all nodes
-    awk '/^v/ { print $2, $3, $4 }' "$@" | sort -u
-}
-
-# new_inside RESULT MESH ...: nodes that no other mesh has lie inside the result, on the plane
-new_inside() {
-    awk 'NR == 1 { result = FILENAME } /^v/ && FILENAME == result { line[$2 " " $3] = $0 }
-        /^v/ && FILENAME != result { delete line[$2 " " $3] }
-        END { for (p in line) { split(line[p], v); off = v[4] - .01 * v[2] + .02 * v[3] - 5
-            if (v[5] % 2 || off ^ 2 > 1e-12) { print line[p]; bad = 1 } } exit bad }' "$@"
-}
-
-# angles RESULT MESH ...: triangles of the result that no other mesh has: how many, their least angle,
-# and how many are under 15 degrees
-angles() {
-    elements "$1" >of.result
-    shift
-    elements "$@" >of.others
-    comm -23 of.result of.others | tr , ' ' | awk '{ least = 180
-        for (i = 0; i < 3; i++) { a = 1 + 2 * i; b = 1 + 2 * ((i + 1) % 3); c = 1 + 2 * ((i + 2) % 3)
-            angle = atan2($(b + 1) - $(a + 1), $b - $a) - atan2($(c + 1) - $(a + 1), $c - $a)
-            angle = atan2(sin(angle), cos(angle)) * 180 / atan2(0, -1)
-            if (angle < 0) angle = -angle
-            if (angle < least) least = angle }
-        n++; if (n == 1 || least < most) most = least; if (least < 15) poor++ }
-        END { print n + 0, most + 0, poor + 0 }'
-}
-
-# An independent look: positive areas, edges used once each way, all nodes used, one piece (Euler:
-# nodes - edges + elements = pieces - holes, with HOLES given).
-sound() {
-    awk -v holes="${2:-0}" -v pieces="${3:-1}" '/^v/ { x[n + 0] = $2; y[n++] = $3 }
-        /^[tq]/ { k = /^t/ ? 3 : 4; elements++; s = 0
-            for (i = 0; i < k; i++) {
-                a = $(2 + i); b = $(2 + (i + 1) % k); used[a] = 1
-                if (++edge[a, b] > 1) { print "edge twice", a, b; bad = 1 }
-                if (!((b, a) in edge)) edges++
-                s += x[a] * y[b] - x[b] * y[a] }
-            if (s <= 0) { print "area", $0; bad = 1 } }
-        END { for (i = 0; i < n; i++) if (!(i in used)) { print "unused", i; bad = 1 }
-            if (n - edges + elements != pieces - holes) { print "Euler", n - edges + elements; bad = 1 }
-            exit bad }' "$1"
-}
+. "$TESTS/channels.sh"
 
 # joined NAME RESULT HIGHER LOWER [HOLES [PIECES]]: sound; new nodes only inside; the higher mesh whole
 joined() {
@@ -191,6 +110,23 @@ for end in "245 0 495 1 40" "234.6 .187 484.6 -.241 40" "222.7 -.024 472.7 -.168
 done
 true_that "end to end: $(awk '{ n += $1; poor += $3 } END { print poor " of " n " triangles under 15 degrees" }' ends)" \
     "$(awk '{ n += $1; poor += $3 } END { print (n > 100) * 100 * poor / n }' ends) <= 1"
+
+# --- an island inside ---
+island main.hm 180 220 -9 9 >ring.hm
+channel up 260 170 235 5 25 8 3 >up.hm
+stitch ring.hm up.hm >out.hm 2>/dev/null
+joined "a tributary beside an island" out.hm ring.hm up.hm 1
+channel into 200 170 200 4 25 8 3 >into.hm
+stitch ring.hm into.hm >out.hm 2>/dev/null
+joined "a tributary into an island" out.hm ring.hm into.hm 1
+stitch into.hm ring.hm >out.hm 2>/dev/null
+joined "an island of the lower mesh" out.hm into.hm ring.hm 1
+channel pond 190 0 210 0 10 5 3 >pond.hm
+stitch -c ring.hm pond.hm >out.hm 2>/dev/null
+joined "a mesh within the island" out.hm ring.hm pond.hm 1 2
+channel cover 170 0 230 0 30 7 4 >cover.hm
+stitch ring.hm cover.hm >out.hm 2>/dev/null
+joined "a mesh that covers the island" out.hm ring.hm cover.hm
 
 # --- more than two ---
 channel north 100 150 100 0 20 8 4 >north.hm

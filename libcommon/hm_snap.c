@@ -19,6 +19,7 @@ static const double COST_OFFSET = 6.0;  /* and the reach beside its prolongation
 static const double COST_LEAVE = 0.3;   /* between moved and unmoved */
 static const double COST_SWITCH = 6;    /* between toe and crest, moved or not in between */
 static const double LEAST_STEP = 0.2;   /* of a control distance that each point must go forward */
+static const double CLEAR_OF_END = 0.4; /* of the distance from an end section that must remain */
 static const double MOST_DETOUR = 1.5;  /* length along a breakline over the straight way */
 
 enum { MOST_TARGETS = 12, STAYS = 3, GLIDES = 8 };
@@ -105,6 +106,22 @@ static double cut_by_axis(const struct hm_segment *s, const double *p, const dou
     return da / (da - db);
 }
 
+/* Does a place for control point i lie beyond an end section near by, or too close to it? */
+static bool is_beyond_end(const struct fit *f, size_t i, const double xy[2])
+{
+    for (int end = 0; end < 2; end++) {
+        size_t last = end ? f->bank->n - 1 : 0;
+        const double *p = rough(f, last), *q = rough(f, i), *axis = f->bank->slide[end];
+        if (i == last || hypot(q[0] - p[0], q[1] - p[1]) > 2 * f->bank->reach[i])
+            continue;
+        double was = axis[0] * (q[1] - p[1]) - axis[1] * (q[0] - p[0]);
+        double is = axis[0] * (xy[1] - p[1]) - axis[1] * (xy[0] - p[0]);
+        if (was * is < CLEAR_OF_END * was * was)
+            return true;
+    }
+    return false;
+}
+
 static bool try_segment(void *arg, const struct hm_segment *s)
 {
     struct search *q = arg;
@@ -118,7 +135,7 @@ static bool try_segment(void *arg, const struct hm_segment *s)
     t.far = hypot(t.xy[0] - p[0], t.xy[1] - p[1]);
     const double *behind = q->fit->b->behind[s->line] + s->piece;
     t.s = behind[0] + part * (behind[1] - behind[0]);
-    if (t.far <= q->fit->bank->reach[q->i])
+    if (t.far <= q->fit->bank->reach[q->i] && !is_beyond_end(q->fit, q->i, t.xy))
         keep_target(q, &t);
     return true;
 }

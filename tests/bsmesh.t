@@ -119,11 +119,12 @@ true_that "with its number" "$(most b.hm '-$5') == -2 && $(grep -c '^#owners a b
 
 # --- a bend of 120°, breaklines at radii 60 and 100 ---
 
-# arc RADIUS STEP: points of the arc every STEP degrees
-arc() {
-    awk -v r="$1" -v step="$2" 'BEGIN { pi = atan2(0, -1)
-        for (a = -60; a <= 60; a += step) printf "%.10g %.10g 0\n", r * cos(a * pi / 180), r * sin(a * pi / 180) }'
+# arc_from ANGLE RADIUS STEP: points of the arc from there to the opposite angle, every STEP degrees
+arc_from() {
+    awk -v from="$1" -v r="$2" -v step="$3" 'BEGIN { pi = atan2(0, -1)
+        for (a = from; a <= -from; a += step) printf "%.10g %.10g 0\n", r * cos(a * pi / 180), r * sin(a * pi / 180) }'
 }
+arc() { arc_from -60 "$@"; }
 plane -20 130 -120 120 >bend.xyz
 lines "> surface=bend side=right
 $(arc 103 15)
@@ -149,6 +150,25 @@ for how in '' -Q; do
     true_that "elements counter-clockwise" "$2 > 0"
     # the sector of the ring: (100² - 60²) 120° / 2, but for the slanted ends
     true_that "area of the bend: $1" "$1 > 0.97 * 6702 && $1 < 1.06 * 6702"
+done
+
+# --- tight bends: banks clicked every 38 or 40 degrees, the inner one tighter than the river is wide ---
+
+plane -60 80 -80 80 >tight.xyz
+for radius in 4 8 12; do
+    for step in 38 40; do # the second ends short of the breaklines
+        lines "> surface=t side=right
+$(arc_from -95 43 19)
+> surface=t side=left
+$(arc_from -95 $((radius + 3)) $step)
+> limit=5
+$(arc_from -95 $radius 1)
+> limit=5
+$(arc_from -95 40 1)" >tight.txt
+        for how in "-c 4/6" "-c 8/6" "-O -c 4/6"; do
+            ok "no fold: inner radius $radius, $step degrees, $how" bsmesh $how -e 4/3 -o t.hm tight.txt tight.xyz
+        done
+    done
 done
 
 # --- from a rough centre line ---

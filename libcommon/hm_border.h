@@ -35,6 +35,14 @@ static inline double hm_border_length(const struct hm_border *b, size_t i)
     return hypot(to[0] - from[0], to[1] - from[1]);
 }
 
+/* The place on edge i at a part of it, 0 .. 1. */
+static inline void hm_border_at(const struct hm_border *b, size_t i, double at, double place[2])
+{
+    const double *from = hm_border_from(b, i), *to = hm_border_to(b, i);
+    for (int k = 0; k < 2; k++)
+        place[k] = from[k] + at * (to[k] - from[k]);
+}
+
 /* Is p nearer to some edge than `factor` times the larger of that edge's length and `length`? */
 bool hm_border_is_near(const struct hm_border *b, const double *p, double factor, double length);
 

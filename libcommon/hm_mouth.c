@@ -62,9 +62,10 @@ static void attach(const struct hm_border *h, const size_t *prev, struct hm_cros
 
 static double distance_from(const struct hm_border *h, const struct hm_crossing *x, size_t place)
 {
-    const double *a = hm_border_from(h, x->edge), *b = hm_border_to(h, x->edge);
+    double at[2];
     const double *p = hm_border_from(h, place);
-    return hypot(a[0] + x->at * (b[0] - a[0]) - p[0], a[1] + x->at * (b[1] - a[1]) - p[1]);
+    hm_border_at(h, x->edge, x->at, at);
+    return hypot(at[0] - p[0], at[1] - p[1]);
 }
 
 /* The nearer end of the edge in which a crossing lies. */
@@ -227,8 +228,8 @@ enum hm_err hm_mouth_attach(const struct hm_stretches *c, const struct hm_stretc
     const struct hm_crossing *x = &c->crossing[at_end ? stretch->to : stretch->from];
     const int32_t *node = c->node + stretch->first + (at_end ? stretch->count - 1 : 0);
     const struct tail tail = {node, at_end ? -1 : 1};
-    const double *a = hm_border_from(s->higher, x->edge), *b = hm_border_to(s->higher, x->edge);
-    const double place[2] = {a[0] + x->at * (b[0] - a[0]), a[1] + x->at * (b[1] - a[1])};
+    double place[2];
+    hm_border_at(s->higher, x->edge, x->at, place);
     double junction =
         hm_plane_angle(place, hm_mesh_xy(s->higher->mesh, x->beyond), hm_mesh_xy(s->lower, *node));
     double notch = fmin(notch_degrees, notch_part * junction);

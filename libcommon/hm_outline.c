@@ -212,14 +212,6 @@ static int32_t node_from(const struct hm_stretches *c, const struct hm_stretch *
     return c->node[stretch->first + (at_end ? stretch->count - 1 - k : k)];
 }
 
-static double *place_of(const struct hm_border *b, const struct hm_crossing *x, double place[2])
-{
-    const double *from = hm_border_from(b, x->edge), *to = hm_border_to(b, x->edge);
-    for (int k = 0; k < 2; k++)
-        place[k] = from[k] + x->at * (to[k] - from[k]);
-    return place;
-}
-
 /* Move a crossing to the place of the border nearest to p. */
 static void move_crossing(const struct hm_border *b, struct hm_crossing *x, const double *p)
 {
@@ -239,7 +231,7 @@ static double border_distance(const struct hm_border *b, const double *p)
     struct hm_crossing nearest = {0};
     double foot[2];
     move_crossing(b, &nearest, p);
-    place_of(b, &nearest, foot);
+    hm_border_at(b, nearest.edge, nearest.at, foot);
     return hypot(p[0] - foot[0], p[1] - foot[1]);
 }
 
@@ -254,7 +246,7 @@ static void stop_hugging(struct hm_stretches *c, struct hm_stretch *stretch, boo
         return;
     struct hm_crossing *x = &c->crossing[number];
     double start[2];
-    place_of(s->higher, x, start);
+    hm_border_at(s->higher, x->edge, x->at, start);
     size_t k = 0;
     for (size_t i = 0; i + 1 < stretch->count; i++) {
         int32_t node = node_from(c, stretch, at_end, i);

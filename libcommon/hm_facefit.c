@@ -260,6 +260,8 @@ enum hm_err hm_facefit_apply(struct hm_mesh *mesh, const struct hm_rough *surfac
     }
     if (!err && cut->dropped > 0)
         err = drop_lonely(mesh, cut, d);
+    if (!err && cut->dropped > 0 && mesh->nelems > 0)
+        err = hm_facefit_fill(mesh, surface->number, faces, n, least_angle, &fit->filled, d);
     if (!err && mesh->nelems == 0)
         err = hm_fail(d, HM_EGEOM, "nothing of surface '%s' can be fitted to its face loop",
                       surface->name);

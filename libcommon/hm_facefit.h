@@ -12,6 +12,7 @@ struct hm_facefit {
     int64_t moved;   /* nodes of the cut that lie on a loop now */
     double furthest; /* the largest such move, m */
     int64_t off;     /* nodes of the cut that could not be moved all the way */
+    int64_t filled;  /* triangles put into notches that remained */
 };
 
 /* Cut the mesh (hm_face_apply, by the centres of elements), and move the nodes of the cut; elements
@@ -22,5 +23,11 @@ struct hm_facefit {
 enum hm_err hm_facefit_apply(struct hm_mesh *mesh, const struct hm_rough *surface,
                              const struct hm_face *faces, size_t n, struct hm_face_cut *cut,
                              struct hm_facefit *fit, struct hm_diag *d);
+
+/* Fill the notches in the border of such a mesh: a triangle on two neighbouring edges, where it has
+ * no angle under `least_angle` degrees, and its third edge lies inside the loops or hardly outside.
+ */
+enum hm_err hm_facefit_fill(struct hm_mesh *mesh, int32_t surface, const struct hm_face *faces,
+                            size_t n, double least_angle, int64_t *filled, struct hm_diag *d);
 
 #endif

@@ -340,6 +340,12 @@ true_that "most nodes of the cut lie on the loop" "$(beside fit.hm) <= 20"
 true_that "without -F they do not" "$(bsmesh -c 10/8 -e 5/4 slanted.txt plane.xyz 2>/dev/null >saw.hm; beside saw.hm) > 60"
 true_that "on the plane" "$(most fit.hm '($3-0.01*$1+0.02*$2-5)^2') < 1e-18"
 true_that "counter-clockwise" "$(area fit.hm | cut -d' ' -f2) > 0.5"
+for length in 5 6 7 8; do # the loop encloses 3842.76 m2 of the channel
+    bsmesh -F -c 10/8 -e $length/4 slanted.txt plane.xyz >notch.hm 2>/dev/null
+    true_that "elements of $length m fill the loop, but for" \
+        "3842.76 - $(area notch.hm | cut -d' ' -f1) < 55 && 3842.76 - $(area notch.hm | cut -d' ' -f1) > -5"
+    ok "without fault" sh -c 'stitch notch.hm >/dev/null'
+done
 ok "a mesh without fault" sh -c 'stitch fit.hm >/dev/null'
 ok "quadrilaterals too" sh -c 'bsmesh -F -Q -c 10/8 -e 5/4 slanted.txt plane.xyz >fit.hm 2>/dev/null && stitch fit.hm >/dev/null'
 ok "round a hole" sh -c 'bsmesh -F -c 10/8 -e 5/4 hole.txt plane.xyz >fit.hm 2>/dev/null && stitch fit.hm >/dev/null'

@@ -210,8 +210,9 @@ static void tell(struct hm_cli *cli, const struct job *job, const struct hm_roug
     if (fit->moved + fit->off > 0)
         hm_cli_say(cli,
                    "%s: %lld nodes of the cut moved onto the face loop, the furthest %.2f m; %lld "
-                   "stay beside it",
-                   rough->name, (long long)fit->moved, fit->furthest, (long long)fit->off);
+                   "stay beside it; %lld notches filled",
+                   rough->name, (long long)fit->moved, fit->furthest, (long long)fit->off,
+                   (long long)fit->filled);
     hm_cli_mended(cli, cut->pinched, "%s: %lld more where elements hung together in one node only",
                   rough->name, (long long)cut->pinched);
     hm_cli_say(cli, "%s: %zu by %zu control points, %zu nodes, %zu elements", rough->name, n, m,

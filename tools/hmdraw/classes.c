@@ -33,11 +33,9 @@ static enum hm_err make_list(struct classes *c, size_t n, struct hm_diag *d)
  * quadrilateral through its diagonals. */
 static void slope_of(const struct hm_mesh *m, const struct hm_elem *e, double slope[2])
 {
-    const struct hm_node *n[4];
-    for (int k = 0; k < hm_elem_corners(e); k++)
-        n[k] = &m->node[e->node[k]];
-    const struct hm_node *a = n[0], *b = n[hm_elem_corners(e) == 4 ? 2 : 1];
-    const struct hm_node *c = n[hm_elem_corners(e) == 4 ? 1 : 0], *o = n[hm_elem_corners(e) - 1];
+    const bool quad = hm_elem_corners(e) == 4;
+    const struct hm_node *a = &m->node[e->node[0]], *b = &m->node[e->node[quad ? 2 : 1]];
+    const struct hm_node *c = &m->node[e->node[quad ? 1 : 0]], *o = &m->node[e->node[quad ? 3 : 2]];
     const double ux = b->x - a->x, uy = b->y - a->y, uz = b->z - a->z;
     const double vx = o->x - c->x, vy = o->y - c->y, vz = o->z - c->z;
     const double area = ux * vy - uy * vx;

@@ -29,6 +29,9 @@ struct refine {
     int32_t first;          /* vertices from here on are ours … */
     struct segment *parent; /* … and lie on these constraints, or on HM_TRI_NONE */
     size_t n_parent, cap_parent;
+    double *stuck; /* by vertex: of the longest constraint there that could not be split, the square
+                    * of its length, or 0 */
+    size_t n_stuck, cap_stuck;
     double cos2;      /* square of the cosine of the minimum angle */
     double lens;      /* square of the cosine of twice that */
     double off;       /* the farthest off-centre, in lengths of the edge */
@@ -73,9 +76,19 @@ static enum hm_err push_segment(struct refine *r, int32_t e)
     return HM_OK;
 }
 
+/* Has it turned out that the constraint e cannot be split, or a longer one at each of its ends? */
+static bool is_stuck(const struct refine *r, int32_t e)
+{
+    int32_t ends[2] = {r->t->half[e].org, hm_tri_dest_of(r->t, e)};
+    double least = INFINITY;
+    for (int i = 0; i < 2; i++)
+        least = (size_t)ends[i] < r->n_stuck ? fmin(least, r->stuck[ends[i]]) : 0;
+    return least > 0 && length2(hm_tri_at(r->t, ends[0]), hm_tri_at(r->t, ends[1])) <= least;
+}
+
 static bool is_whole(const struct refine *r, int32_t e)
 {
-    return (r->t->marks[e] & r->q->whole) != 0;
+    return (r->t->marks[e] & r->q->whole) || (r->n_stuck > 0 && is_stuck(r, e));
 }
 
 /* Queue a constraint that is too long, or has a vertex too near. */
@@ -313,12 +326,14 @@ static double choose_part(const struct refine *r, int32_t e)
     return at_org ? part : 1 - part;
 }
 
-/* Split e; where that would fold a triangle, because those outside are no thicker than rounding
- * made them, a few last digits into the triangle of e. HM_EGEOM when it is too short for that too.
- */
+/* Split e; where that would fold a triangle that is no thicker than rounding made it, a few last
+ * digits beside it, into the triangle of e: towards its apex, or straight away from e when the apex
+ * is far along it. HM_EGEOM when there is no place. */
 static enum hm_err split_near(struct refine *r, int32_t e, int32_t *v)
 {
     struct hm_tri *t = r->t;
+    if (!is_inside(r, e / 3))
+        e = t->half[e].twin;
     const double *a = hm_tri_at(t, t->half[e].org), *b = hm_tri_at(t, hm_tri_dest_of(t, e));
     double part = choose_part(r, e), p[2];
     for (int k = 0; k < 2; k++)
@@ -326,13 +341,13 @@ static enum hm_err split_near(struct refine *r, int32_t e, int32_t *v)
     enum hm_err err = hm_tri_split(t, e, p[0], p[1], v, NULL);
     if (err != HM_EGEOM)
         return err;
-    if (!is_inside(r, e / 3))
-        e = t->half[e].twin;
     const double *apex = hm_tri_at(t, hm_tri_apex_of(t, e));
-    double step = DBL_EPSILON * (fabs(p[0]) + fabs(p[1])) / sqrt(length2(apex, p));
-    for (int i = 0; i < 4 && err == HM_EGEOM; i++, step *= 2)
-        err = hm_tri_split(t, e, p[0] + step * (apex[0] - p[0]), p[1] + step * (apex[1] - p[1]), v,
-                           NULL);
+    double way[2][2] = {{apex[0] - p[0], apex[1] - p[1]}, {a[1] - b[1], b[0] - a[0]}};
+    for (int i = 0; i < 8 && err == HM_EGEOM; i++) {
+        const double *w = way[i % 2];
+        double step = ldexp(DBL_EPSILON * (fabs(p[0]) + fabs(p[1])), i / 2) / hypot(w[0], w[1]);
+        err = hm_tri_split(t, e, p[0] + step * w[0], p[1] + step * w[1], v, NULL);
+    }
     return err;
 }
 
@@ -345,11 +360,27 @@ static struct segment parent_of(const struct refine *r, struct segment s)
     return s;
 }
 
+/* The constraint s cannot be split, and vertices beside it were taken out to try. That shall not
+ * happen again: they would be put in and taken out for ever. */
+static enum hm_err note_stuck(struct refine *r, struct segment s)
+{
+    size_t n = (size_t)r->t->vertices;
+    double here = length2(hm_tri_at(r->t, s.a), hm_tri_at(r->t, s.b));
+    if (!hm_grow(&r->stuck, &r->cap_stuck, n, sizeof *r->stuck))
+        return hm_fail_memory(r->d);
+    while (r->n_stuck < n)
+        r->stuck[r->n_stuck++] = 0;
+    r->stuck[s.a] = fmax(r->stuck[s.a], here);
+    r->stuck[s.b] = fmax(r->stuck[s.b], here);
+    return HM_OK;
+}
+
 static enum hm_err split_segment(struct refine *r, struct segment s)
 {
     struct hm_tri *t = r->t;
     int32_t e = hm_tri_edge_between(t, s.a, s.b), v;
-    if (e == HM_TRI_NONE || !hm_tri_marks_of(t, e))
+    int64_t before = r->done->inside;
+    if (e == HM_TRI_NONE || !hm_tri_marks_of(t, e) || is_whole(r, e))
         return HM_OK;
     enum hm_err err = clear_side(r, s);
     if (!err)
@@ -358,7 +389,7 @@ static enum hm_err split_segment(struct refine *r, struct segment s)
         return err;
     err = split_near(r, hm_tri_edge_between(t, s.a, s.b), &v);
     if (err == HM_EGEOM)
-        return HM_OK;
+        return r->done->inside < before ? note_stuck(r, s) : HM_OK;
     if (err)
         return hm_fail_memory(r->d);
     err = note_parent(r, v, parent_of(r, s));
@@ -672,6 +703,7 @@ enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
     free(r->small.block);
     free(r->split);
     free(r->parent);
+    free(r->stuck);
     free(r);
     return err;
 }

@@ -314,6 +314,31 @@ static void random_drawings(void)
        (long long)added, (long long)small);
 }
 
+/* What is only as wide as rounding. Two points a last digit apart: beside them constraints cannot
+ * be split, and vertices were put in and taken out for it without end. A hull edge whose triangle
+ * has its apex next to one of its ends: its pieces could not be split, and what is there stayed
+ * large.
+ */
+static void last_digits(void)
+{
+    const double xy[2][8] = {
+        {3.0000000000000004, 0.8, 3, 0.8, 8.0000000000000018, 0.70000000000000007, 1, 0.4},
+        {7.5, 6.5, 1, 7.2, 7.6, 3.2, 7.500003, 6.500001}};
+    for (int i = 0; i < 2; i++) {
+        struct hm_tri *t;
+        struct hm_tri_quality q = {.outside = -1, .hull_marks = 8, .most = 20000};
+        q.min_angle = i ? 0 : 24;
+        q.max_edge = i ? 2.2 : 0;
+        struct hm_tri_refined done;
+        bool good = !hm_tri_build(&t, xy[i], 4, 2, 1, NULL) && !hm_tri_refine(t, &q, &done, NULL) &&
+                    is_sound(t);
+        ok(good && !done.capped && done.large == 0, "%s: %lld vertices added, %lld triangles large",
+           i ? "an apex beside an end" : "two points as one",
+           (long long)(done.on_segments + done.inside), (long long)done.large);
+        hm_tri_free(t);
+    }
+}
+
 static void refusals(void)
 {
     struct hm_tri *t = polygon(shape, 8, 8);
@@ -336,6 +361,7 @@ int main(void)
     growth();
     whole();
     random_drawings();
+    last_digits();
     refusals();
     return done();
 }

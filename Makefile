@@ -32,10 +32,10 @@ JOBS = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
 WARN   := -Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes
 SANFLAGS := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all -fno-omit-frame-pointer)
 HM_CFLAGS  = -std=c11 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -ffp-contract=off -pthread \
-             $(WARN) $(SANFLAGS) -Ilibcommon -MMD -MP $(CFLAGS)
+             $(WARN) $(SANFLAGS) -Ilibcommon -MMD -MP $(CPPFLAGS) $(CFLAGS)
 CXXFLAGS ?= -O2 -g
 HM_CXXFLAGS = -std=c++17 -D_FILE_OFFSET_BITS=64 -ffp-contract=off -pthread -Wall -Wextra -Wshadow \
-             -Wconversion $(SANFLAGS) -Ilibcommon $(GEOD_CFLAGS) -MMD -MP $(CXXFLAGS)
+             -Wconversion $(SANFLAGS) -Ilibcommon $(GEOD_CFLAGS) -MMD -MP $(CPPFLAGS) $(CXXFLAGS)
 HM_LDFLAGS = -pthread $(SANFLAGS) $(LDFLAGS)
 
 LIB       := $(B)/libhm.a
@@ -51,7 +51,8 @@ FUZZ      := $(B)/fuzz/fuzz_reader $(B)/fuzz/fuzz_tri $(IMPORTED:%=$(B)/fuzz/fuz
 
 SOURCES   := $(sort $(wildcard libcommon/*.[ch] libcommon/*.cpp tools/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch]))
 
-.PHONY: all help deps demo casestudies pictures check check-long check-san fuzz bench lint install clean FORCE
+.PHONY: all help deps demo casestudies pictures check check-long check-san fuzz bench lint install dist deb \
+        clean FORCE
 .DELETE_ON_ERROR:
 
 all: $(BIN)
@@ -74,6 +75,7 @@ help:
 #: make lint       format, static checks, man pages
 #: make deps       install missing Debian packages (root, or sudo without a password)
 #: make install    DESTDIR= PREFIX=/usr/local PROGPREFIX=
+#: make dist       the sources in build/hybridmesh-VERSION.tar.gz;  make deb: a Debian package
 
 $(B)/obj/%.o: libcommon/%.c
 	@mkdir -p $(@D)
@@ -228,16 +230,31 @@ deps:
 deps-quiet:
 	$(Q)tests/deps build quiet
 
+COMPLETION = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 install: all
 	$(Q)mkdir -p $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 \
-	    $(DESTDIR)$(PREFIX)/share/man/man5 $(DESTDIR)$(PREFIX)/share/man/man7 \
+	    $(DESTDIR)$(PREFIX)/share/man/man5 $(DESTDIR)$(PREFIX)/share/man/man7 $(COMPLETION) \
 	    $(DESTDIR)$(PREFIX)/share/hybridmesh
 	$(Q)for p in $(PROGRAMS); do \
 	    install -m 755 $(B)/bin/$$p $(DESTDIR)$(PREFIX)/bin/$(PROGPREFIX)$$p && \
-	    install -m 644 man/$$p.1 $(DESTDIR)$(PREFIX)/share/man/man1/$(PROGPREFIX)$$p.1 || exit 1; done
+	    install -m 644 man/$$p.1 $(DESTDIR)$(PREFIX)/share/man/man1/$(PROGPREFIX)$$p.1 && \
+	    sed 's/^\(complete .*_hybridmesh\) .*/\1 $(PROGPREFIX)'$$p/ tools/completion.bash \
+	        >$(COMPLETION)/$(PROGPREFIX)$$p || exit 1; done
 	$(Q)install -m 644 man/hybridmesh.5 $(DESTDIR)$(PREFIX)/share/man/man5/
 	$(Q)install -m 644 man/hybridmesh.7 $(DESTDIR)$(PREFIX)/share/man/man7/
 	$(Q)install -m 644 man/quality.schema.json $(DESTDIR)$(PREFIX)/share/hybridmesh/
+
+# The sources as committed; and a Debian package of them, looked over by lintian.
+DIST := build/hybridmesh-$(VERSION)
+dist:
+	$(Q)mkdir -p build && git archive --prefix=hybridmesh-$(VERSION)/ HEAD | gzip -9n >$(DIST).tar.gz
+	$(Q)echo "$(DIST).tar.gz"
+deb: dist
+	$(Q)tests/deps deb quiet
+	$(Q)rm -rf build/deb && mkdir -p build/deb && tar -C build/deb -xzf $(DIST).tar.gz
+	$(Q)cd build/deb/hybridmesh-$(VERSION) && cp -r tools/debian debian && \
+	    dpkg-buildpackage -us -uc -b >../log 2>&1 || { tail -n 20 ../log; exit 1; }
+	$(Q)lintian --fail-on error,warning build/deb/*.changes && ls build/deb/*.deb
 
 clean:
 	rm -rf build demo casestudies compile_commands.json

@@ -244,7 +244,8 @@ install: all
 	$(Q)install -m 644 man/hybridmesh.7 $(DESTDIR)$(PREFIX)/share/man/man7/
 	$(Q)install -m 644 man/quality.schema.json $(DESTDIR)$(PREFIX)/share/hybridmesh/
 
-# The sources as committed; and a Debian package of them, looked over by lintian.
+# The sources as committed; and a Debian package of them, looked over by lintian. Who packs it says so
+# by DEBFULLNAME and DEBEMAIL.
 DIST := build/hybridmesh-$(VERSION)
 dist:
 	$(Q)mkdir -p build && git archive --prefix=hybridmesh-$(VERSION)/ HEAD | gzip -9n >$(DIST).tar.gz
@@ -252,7 +253,11 @@ dist:
 deb: dist
 	$(Q)tests/deps deb quiet
 	$(Q)rm -rf build/deb && mkdir -p build/deb && tar -C build/deb -xzf $(DIST).tar.gz
-	$(Q)cd build/deb/hybridmesh-$(VERSION) && cp -r tools/debian debian && \
+	$(Q)who="$${DEBFULLNAME:-hybridmesh developers} <$${DEBEMAIL:-$$(git log -1 --format=%ae)}>"; \
+	    when=$$(git log -1 --format=%cD); cd build/deb/hybridmesh-$(VERSION) && cp -r tools/debian debian && \
+	    sed -i "s/@WHO@/$$who/" debian/control && \
+	    printf 'hybridmesh (%s-1) unstable; urgency=medium\n\n  * As in CHANGES.\n\n -- %s  %s\n' \
+	        $(VERSION) "$$who" "$$when" >debian/changelog && \
 	    dpkg-buildpackage -us -uc -b >../log 2>&1 || { tail -n 20 ../log; exit 1; }
 	$(Q)lintian --fail-on error,warning build/deb/*.changes && ls build/deb/*.deb
 

@@ -126,6 +126,13 @@ endef
 $(eval $(call test_program,tests/unit))
 $(eval $(call test_program,tests/gen))
 
+# Calls that fail, for tests/faults.t.
+FAULT     := $(B)/test/fault.so
+$(FAULT): tests/preload/fault.c
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "  LD      $@")
+	$(Q)$(CC) -std=gnu11 -O2 -fPIC -shared $(WARN) -o $@ $<
+
 # A shell exports LINES, the height of its terminal: only one given to make is meant.
 DEMO_LINES := $(if $(filter command,$(origin LINES)),$(LINES))
 
@@ -148,11 +155,11 @@ casestudies: deps-quiet
 	    B=$(CURDIR)/$(B) tests/study/$$study casestudies/$$study || status=1; done; exit $$status
 
 check: deps-quiet
-	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT) $(FAULT)
 	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/*.t) $(UNIT))
 
 check-long: deps-quiet
-	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT)
+	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN) $(UNIT) $(FAULT)
 	$(Q)B=$(CURDIR)/$(B) tests/run $(or $(TESTS),$(wildcard tests/long/*.t))
 
 check-san:

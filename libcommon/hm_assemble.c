@@ -178,6 +178,8 @@ static enum hm_err add_breakline(struct hm_build *b, const struct hm_line *line,
             xyz[2] = NAN;
             b->counts->line_heights++;
         }
+        if (fabs(xyz[2]) > HM_TERRAIN_HIGHEST)
+            return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1], "a breakline's height of %g m", xyz[2]);
         err = add_node(b, xyz, &number, d);
         if (!err && i > 0)
             err = add_segment(b, number - 1, number, HM_EDGE_BREAKLINE, d);

@@ -204,24 +204,6 @@ static enum hm_err find_median(struct hm_build *b, const struct hm_domain *dom, 
     return HM_OK;
 }
 
-/* Heights of the nodes that have none: of measurements, of outlines, of crossings, of lines drawn
- * without. In the order of the vertices, which are neighbours. */
-static enum hm_err give_heights(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
-{
-    int32_t hint = 0;
-    for (int32_t v = 0; v < hm_tri_vertices(b->tri); v++) {
-        struct hm_node *node = dom->node_of[v] < 0 ? NULL : &dom->node[dom->node_of[v]];
-        if (!node || isfinite(node->z))
-            continue;
-        node->z = hm_terrain_z_nearest(b->in->terrain, node->x, node->y, &hint);
-        if (!isfinite(node->z))
-            return hm_fail_at(
-                d, HM_EGEOM, node->x, node->y,
-                "nothing tells the height of a node: no measurement, grid or line has one");
-    }
-    return HM_OK;
-}
-
 static enum hm_err take_zones(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d)
 {
     dom->nzones = b->nrings + 1;
@@ -242,7 +224,7 @@ enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm
     if (err)
         return err;
     note_beside(b, dom);
-    err = give_heights(b, dom, d);
+    err = hm_build_heights(b, dom, d);
     if (!err)
         err = find_median(b, dom, d);
     if (!err)

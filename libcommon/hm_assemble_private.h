@@ -1,6 +1,6 @@
 /* hm_assemble_private: what hm_assemble works on. Layer 6. Internal to hm_assemble.c, which puts
- * everything into one triangulation, and hm_assemble_ground.c, which finds in it the ground to be
- * meshed.
+ * everything into one triangulation, hm_assemble_ground.c, which finds in it the ground to be
+ * meshed, and hm_assemble_heights.c.
  */
 #ifndef HM_ASSEMBLE_PRIVATE_H
 #define HM_ASSEMBLE_PRIVATE_H
@@ -38,6 +38,9 @@ enum hm_err hm_build_fail_empty(const struct hm_build *b, struct hm_diag *d);
 
 /* Tell inside from outside: the regions of the triangulation become those of a domain. */
 enum hm_err hm_build_judge(struct hm_build *b, struct hm_diag *d);
+
+/* Heights of the nodes that have none so far. HM_EGEOM, with the place, when nothing tells one. */
+enum hm_err hm_build_heights(const struct hm_build *b, struct hm_domain *dom, struct hm_diag *d);
 
 /* Nodes, edges and triangulation of the inside, as a domain; outside pieces are counted. */
 enum hm_err hm_build_domain(struct hm_build *b, struct hm_domain *dom, struct hm_diag *d);

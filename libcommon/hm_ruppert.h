@@ -16,7 +16,9 @@ struct hm_ruppert_options {
     int threads;
 };
 
-/* HM_EARG when a bound is out of range, or the mesh would have more nodes than can be. */
+/* HM_EARG when a bound is out of range, or the mesh would have more nodes than can be. HM_EGEOM,
+ * with the place, when lines so near to each other would make over a hundred times as many nodes as
+ * the sizes want. */
 enum hm_err hm_ruppert_reach(struct hm_domain *dom, const struct hm_ruppert_options *o,
                              struct hm_tri_refined *left, struct hm_diag *d);
 

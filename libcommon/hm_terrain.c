@@ -30,6 +30,8 @@ static enum hm_err add_place(struct places *p, const double *xyz, struct hm_diag
         p->without_z++;
         return HM_OK;
     }
+    if (fabs(xyz[2]) > HM_TERRAIN_HIGHEST)
+        return hm_fail_at(d, HM_EGEOM, xyz[0], xyz[1], "a height of %g m", xyz[2]);
     if (!hm_grow(&p->xyz, &p->cap, 3 * (p->n + 1), sizeof *p->xyz))
         return hm_fail_memory(d);
     memcpy(p->xyz + 3 * p->n++, xyz, 3 * sizeof *xyz);
@@ -65,10 +67,27 @@ static enum hm_err add_lines_and_meshes(struct places *p, const struct hm_inputs
     return err;
 }
 
+static enum hm_err check_grids(const struct hm_inputs *in, struct hm_diag *d)
+{
+    for (size_t k = 0; k < in->ngrids; k++) {
+        const struct hm_grid *g = &in->grid[k];
+        const struct hm_lattice *l = &g->header.lattice;
+        for (int64_t i = 0; i < l->nx * l->ny; i++) {
+            double z = g->v[(size_t)i * g->bands];
+            if (fabs(z) > HM_TERRAIN_HIGHEST)
+                return hm_fail_at(d, HM_EGEOM, l->x0 + (double)(i % l->nx) * l->dx,
+                                  l->y0 + (double)(i / l->nx) * l->dy, "a height of %g m", z);
+        }
+    }
+    return HM_OK;
+}
+
 static enum hm_err build(struct hm_terrain *t, struct places *p, const struct hm_inputs *in,
                          int threads, struct hm_terrain_counts *counts, struct hm_diag *d)
 {
-    enum hm_err err = add_measurements(p, in, d);
+    enum hm_err err = check_grids(in, d);
+    if (!err)
+        err = add_measurements(p, in, d);
     bool measured = p->n > 0;
     *counts = (struct hm_terrain_counts){.without_z = p->without_z};
     if (!err && !measured && in->ngrids == 0)

@@ -13,6 +13,9 @@
 
 struct hm_terrain;
 
+/* Heights beyond this (m) are a mistake: their differences and squares could overflow. */
+#define HM_TERRAIN_HIGHEST 1e100
+
 /* What was mended among the measurements. */
 struct hm_terrain_counts {
     int64_t without_z;  /* left out */
@@ -21,7 +24,8 @@ struct hm_terrain_counts {
 
 /* Of all that the inputs tell; the grids must outlive the terrain, the rest may be freed. Triangles
  * of the TIN with an edge longer than `gap` (m; 0: no limit) know no height. Inputs without any
- * height make a terrain that knows nothing. */
+ * height make a terrain that knows nothing. HM_EGEOM, with the place, for a height that is out of
+ * range. */
 enum hm_err hm_terrain_build(struct hm_terrain **t, const struct hm_inputs *in, double gap,
                              int threads, struct hm_terrain_counts *counts, struct hm_diag *d);
 void hm_terrain_free(struct hm_terrain *t);

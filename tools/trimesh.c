@@ -98,14 +98,14 @@ static const struct hm_program program = {
 
 static void check_lengths(struct hm_cli *cli)
 {
-    if (!cmd.min_given)
+    if (cmd.method == PAPER && !cmd.min_given)
         hm_cli_die(cli, "-m paper needs a minimum edge length (-l)");
-    if (!cmd.max_given)
+    if (cmd.method == PAPER && !cmd.max_given)
         cmd.max_edge = 2.5 * cmd.min_edge;
-    if (cmd.max_edge <= cmd.min_edge)
+    if (cmd.max_edge > 0 && cmd.max_edge <= cmd.min_edge)
         hm_cli_die(cli, "the maximum edge (-L %g) must be more than the minimum (-l %g)",
                    cmd.max_edge, cmd.min_edge);
-    if (cmd.max_edge < 2 * cmd.min_edge)
+    if (cmd.max_edge > 0 && cmd.max_edge < 2 * cmd.min_edge)
         hm_cli_say(cli, "the maximum edge is under twice the minimum: not all edges can keep "
                         "to both");
 }
@@ -144,7 +144,7 @@ static void check_command(struct hm_cli *cli)
 {
     static const char *const name[] = {"delaunay", "paper", "quality", "terrain"};
     const bool refines = cmd.method == QUALITY || cmd.method == TERRAIN;
-    if (cmd.method == PAPER)
+    if (cmd.method == PAPER || cmd.method == TERRAIN)
         check_lengths(cli);
     refuse(cli, cmd.method != PAPER && cmd.steps, "--steps", name[cmd.method]);
     refuse(cli, cmd.method != PAPER && cmd.elevation == Z_MEAN, "-z mean", name[cmd.method]);

@@ -52,8 +52,8 @@ each "an outline with an island" 'a == 1296 - 400' island.txt
 each "with ground within the island" 'a == 1296 - 400 + 25' pond.txt
 { ring boundary=1 2 2 20 38; ring boundary=1 20 2 38 38; } >beside.txt
 each "two that share a side" 'a == 1296' beside.txt
-{ cat island.txt; ring hole=1 4 4 8 8; ring hole=1 30 30 34 34; } >holes.txt
-each "holes, one beside the island" 'a == 1296 - 400 - 32' holes.txt
+{ cat island.txt; ring hole=1 4 4 8 8; ring hole=1 31 31 35 35; } >holes.txt
+each "holes, one near the corner of the island" 'a == 1296 - 400 - 32' holes.txt
 { ring boundary=1 2 2 38 38; ring hole=1 30 30 50 50; } >across.txt
 each "a hole across the outline" 'a == 1296 - 64' across.txt
 { ring boundary=1 2 2 38 38; ring hole=1 50 50 60 60; } >away.txt

@@ -177,7 +177,7 @@ $(B)/bench/bench_georef: EXTRA_LIBS = $(GEOD_LIBS)
 bench-georef: $(B)/bin/georef $(B)/bin/hmconv
 
 bench: $(BENCH:%=bench-%) $(BENCH_SH:%=bench-%)
-bench-delaunay bench-refine: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
+bench-delaunay bench-refine bench-ruppert: BENCH_ARGS ?= $(wildcard $(HM_DATA)/bench_river/river.poly)
 $(BENCH:%=bench-%): bench-%: $(B)/bench/bench_%
 	$(Q)tests/deps bench quiet
 	$(Q)PATH=$(CURDIR)/$(B)/bin:$$PATH $< $(BENCH_ARGS)

@@ -1,5 +1,6 @@
 /* hm_domain: see hm_domain.h. */
 #include "hm_domain.h"
+#include "hm_order.h"
 #include "hm_pred.h"
 
 #include <stdlib.h>
@@ -228,9 +229,8 @@ static enum hm_err add_elements(const struct hm_domain *dom, const int32_t *numb
     return HM_OK;
 }
 
-/* Number the nodes that the inside uses, in the order of the triangulation's vertices. */
-static enum hm_err add_nodes(const struct hm_domain *dom, int32_t *number, struct hm_mesh *mesh,
-                             struct hm_diag *d)
+/* number[i] = 0 for the nodes that the inside uses, -1 for the others. */
+static void mark_used(const struct hm_domain *dom, int32_t *number)
 {
     for (size_t i = 0; i < dom->nnodes; i++)
         number[i] = -1;
@@ -242,18 +242,30 @@ static enum hm_err add_nodes(const struct hm_domain *dom, int32_t *number, struc
         for (int k = 0; k < 3; k++)
             number[node[k]] = 0;
     }
-    for (int32_t v = 0; v < hm_tri_vertices(dom->tri); v++) {
-        int32_t i = dom->node_of[v];
-        if (i < 0 || number[i] < 0)
+}
+
+/* Number the nodes that the inside uses, in spatial order. */
+static enum hm_err add_nodes(const struct hm_domain *dom, int32_t *number, struct hm_mesh *mesh,
+                             struct hm_diag *d)
+{
+    const size_t stride = sizeof *dom->node / sizeof(double);
+    struct hm_order_item *order = hm_alloc(dom->nnodes, 2 * sizeof *order);
+    if (!order)
+        return hm_fail_memory(d);
+    mark_used(dom, number);
+    enum hm_err err = hm_order_sort(&dom->node->x, dom->nnodes, stride, HM_ORDER_FINE, 1, order,
+                                    order + dom->nnodes, d);
+    for (size_t k = 0; !err && k < dom->nnodes; k++) {
+        int32_t i = (int32_t)order[k].index;
+        if (number[i] < 0)
             continue;
         number[i] = (int32_t)mesh->nnodes;
         struct hm_node node = dom->node[i];
         node.flags &= ~HM_NODE_NEW;
-        enum hm_err err = hm_mesh_add_node(mesh, node, d);
-        if (err)
-            return err;
+        err = hm_mesh_add_node(mesh, node, d);
     }
-    return HM_OK;
+    free(order);
+    return err;
 }
 
 enum hm_err hm_domain_mesh(const struct hm_domain *dom, struct hm_mesh *mesh, struct hm_diag *d)

@@ -71,8 +71,8 @@ enum hm_err hm_domain_number_vertices(struct hm_domain *dom, struct hm_diag *d);
 
 /* Make nodes of the vertices from `first` on, which were added to tri, and edges of the pieces into
  * which they split fixed ones. On breaklines they have the line's height, elsewhere they are
- * HM_NODE_NEW and their height is NaN. Then tri is made anew: vertices come in spatial order. */
-enum hm_err hm_domain_adopt(struct hm_domain *dom, int32_t first, int threads, struct hm_diag *d);
+ * HM_NODE_NEW and their height is NaN. tri stays; moved vertices are the caller's to bring in. */
+enum hm_err hm_domain_adopt(struct hm_domain *dom, int32_t first, struct hm_diag *d);
 
 /* The area of a triangle in m²; 0 outside the domain. */
 double hm_domain_area(const struct hm_domain *dom, int32_t tri);

@@ -94,12 +94,13 @@ static enum hm_err cut_edge(struct hm_domain *dom, size_t k, int32_t first, stru
     return err;
 }
 
-enum hm_err hm_domain_adopt(struct hm_domain *dom, int32_t first, int threads, struct hm_diag *d)
+enum hm_err hm_domain_adopt(struct hm_domain *dom, int32_t first, struct hm_diag *d)
 {
     size_t nedges = dom->nedges;
     enum hm_err err = add_nodes(dom, first, d);
     for (size_t k = 0; !err && k < nedges; k++)
         err = cut_edge(dom, k, first, d);
-    hm_domain_changed(dom);
-    return err ? err : hm_domain_triangulate(dom, threads, d);
+    if (err)
+        hm_domain_changed(dom);
+    return err;
 }

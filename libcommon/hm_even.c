@@ -295,5 +295,5 @@ enum hm_err hm_even_reach(struct hm_domain *dom, const struct hm_even_options *o
     }
     hm_star_close(&w.rules);
     free(w.pair);
-    return err ? err : hm_domain_adopt(dom, w.first, o->threads, d);
+    return err ? err : hm_domain_adopt(dom, w.first, d);
 }

@@ -254,7 +254,7 @@ enum hm_err hm_greedy_reach(struct hm_domain *dom, const double *xyz, size_t n,
     if (!err)
         err = go(&g);
     dispose(&g);
-    return err ? err : hm_domain_adopt(dom, first, o->threads, d);
+    return err ? err : hm_domain_adopt(dom, first, d);
 }
 
 enum hm_err hm_greedy_look(struct hm_domain *dom, const double *xyz, size_t n, int threads,

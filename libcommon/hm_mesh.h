@@ -8,6 +8,9 @@
 
 #include "hm_header.h"
 
+#include <assert.h>
+#include <stddef.h>
+
 enum hm_node_flag {
     HM_NODE_BOUNDARY = 1,  /* on the boundary of the mesh */
     HM_NODE_BREAKLINE = 2, /* on a breakline */
@@ -32,9 +35,8 @@ struct hm_mesh {
 /* The place of a node: x and y side by side. */
 static inline const double *hm_mesh_xy(const struct hm_mesh *m, int32_t node)
 {
-    _Static_assert(offsetof(struct hm_node, x) == 0 &&
-                       offsetof(struct hm_node, y) == sizeof(double),
-                   "x and y lie side by side at the beginning of a node");
+    static_assert(offsetof(struct hm_node, x) == 0 && offsetof(struct hm_node, y) == sizeof(double),
+                  "x and y lie side by side at the beginning of a node");
     return (const double *)&m->node[node];
 }
 static inline int hm_elem_corners(const struct hm_elem *e)

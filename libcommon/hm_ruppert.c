@@ -63,5 +63,5 @@ enum hm_err hm_ruppert_reach(struct hm_domain *dom, const struct hm_ruppert_opti
     err = hm_tri_refine(dom->tri, &q, left, d);
     if (!err && left->capped)
         err = fail_near(dom, q.most, d);
-    return err ? err : hm_domain_adopt(dom, first, o->threads, d);
+    return err ? err : hm_domain_adopt(dom, first, d);
 }

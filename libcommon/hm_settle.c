@@ -198,6 +198,7 @@ enum hm_err hm_settle_reach(struct hm_domain *dom, const struct hm_settle_option
     hm_star_close(&w.rules);
     hm_buckets_free(&w.bucket);
     free(w.stirred);
-    hm_domain_changed(dom);
-    return err ? err : hm_domain_triangulate(dom, o->threads, d);
+    if (err)
+        hm_domain_changed(dom);
+    return err;
 }

@@ -72,8 +72,9 @@ double hm_sizes_area(void *sizes, double x, double y, int32_t region)
     const struct hm_sizes *s = sizes;
     double area = s->dom->zone[region - 1].max_area;
     area = area > 0 ? area : s->max_area;
-    double edge = s->grid ? hm_bilinear(s->grid, s->band, x, y) : NAN;
-    double here = hm_sizes_equilateral(edge);
+    if (!s->grid)
+        return area;
+    double here = hm_sizes_equilateral(hm_bilinear(s->grid, s->band, x, y));
     return here < area || (area == 0 && here > 0) ? here : area;
 }
 

@@ -244,19 +244,36 @@ static void mark_used(const struct hm_domain *dom, int32_t *number)
     }
 }
 
+enum hm_err hm_domain_order(const struct hm_domain *dom, int32_t **nodes, struct hm_diag *d)
+{
+    const size_t stride = sizeof *dom->node / sizeof(double);
+    struct hm_order_item *order = hm_alloc(dom->nnodes, 2 * sizeof *order);
+    *nodes = hm_alloc(dom->nnodes, sizeof **nodes);
+    enum hm_err err = order && *nodes ? HM_OK : hm_fail_memory(d);
+    if (!err)
+        err = hm_order_sort(&dom->node->x, dom->nnodes, stride, HM_ORDER_FINE, 1, order,
+                            order + dom->nnodes, d);
+    for (size_t k = 0; !err && k < dom->nnodes; k++)
+        (*nodes)[k] = (int32_t)order[k].index;
+    free(order);
+    if (!err)
+        return HM_OK;
+    free(*nodes);
+    *nodes = NULL;
+    return err;
+}
+
 /* Number the nodes that the inside uses, in spatial order. */
 static enum hm_err add_nodes(const struct hm_domain *dom, int32_t *number, struct hm_mesh *mesh,
                              struct hm_diag *d)
 {
-    const size_t stride = sizeof *dom->node / sizeof(double);
-    struct hm_order_item *order = hm_alloc(dom->nnodes, 2 * sizeof *order);
-    if (!order)
-        return hm_fail_memory(d);
+    int32_t *order;
+    enum hm_err err = hm_domain_order(dom, &order, d);
+    if (err)
+        return err;
     mark_used(dom, number);
-    enum hm_err err = hm_order_sort(&dom->node->x, dom->nnodes, stride, HM_ORDER_FINE, 1, order,
-                                    order + dom->nnodes, d);
     for (size_t k = 0; !err && k < dom->nnodes; k++) {
-        int32_t i = (int32_t)order[k].index;
+        int32_t i = order[k];
         if (number[i] < 0)
             continue;
         number[i] = (int32_t)mesh->nnodes;

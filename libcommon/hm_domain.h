@@ -100,6 +100,9 @@ static inline double hm_node_distance2(const struct hm_node *a, const struct hm_
     return (a->x - b->x) * (a->x - b->x) + (a->y - b->y) * (a->y - b->y);
 }
 
+/* The numbers of all nodes in spatial order, malloc'd: for who looks each of them up elsewhere. */
+enum hm_err hm_domain_order(const struct hm_domain *dom, int32_t **nodes, struct hm_diag *d);
+
 /* Append nodes and elements of the triangulated domain to a mesh that has none: nodes in spatial
  * order, elements by their lowest node. */
 enum hm_err hm_domain_mesh(const struct hm_domain *dom, struct hm_mesh *mesh, struct hm_diag *d);

@@ -186,6 +186,8 @@ enum hm_err hm_settle_reach(struct hm_domain *dom, const struct hm_settle_option
                             int64_t *moved, struct hm_diag *d)
 {
     *moved = 0;
+    hm_domain_changed(dom); /* in spatial order again, whatever was inserted: near places are asked
+                             * for one after the other */
     enum hm_err err = hm_domain_triangulate(dom, o->threads, d);
     if (err)
         return err;

@@ -453,18 +453,21 @@ static void say_refined(struct hm_cli *cli, const struct refined *left)
                    (long long)pairs->regular, pairs->worst, pairs->x, pairs->y);
 }
 
-/* New and moved nodes get the terrain's height. */
+/* New and moved nodes get the terrain's height; in spatial order, so that each is near the last. */
 static void lift(struct hm_cli *cli, const struct hm_terrain *terrain, struct hm_domain *dom)
 {
-    int32_t hint = 0;
-    for (int32_t v = 0; v < hm_tri_vertices(dom->tri); v++) {
-        struct hm_node *node = dom->node_of[v] < 0 ? NULL : &dom->node[dom->node_of[v]];
-        if (!node || !(node->flags & HM_NODE_NEW))
+    struct hm_diag d = {0};
+    int32_t hint = 0, *order;
+    hm_cli_check(cli, hm_domain_order(dom, &order, &d), &d);
+    for (size_t k = 0; k < dom->nnodes; k++) {
+        struct hm_node *node = &dom->node[order[k]];
+        if (!(node->flags & HM_NODE_NEW))
             continue;
         node->z = hm_terrain_z_nearest(terrain, node->x, node->y, &hint);
         if (!isfinite(node->z))
             hm_cli_die(cli, "nothing tells the height at %.17g %.17g", node->x, node->y);
     }
+    free(order);
 }
 
 /* --- meshes of angles and sizes, and of vertical errors --- */

@@ -43,6 +43,7 @@ void hm_buckets_free(struct hm_buckets *b)
     free(b->first);
     free(b->next);
     free(b->star);
+    free(b->rim);
 }
 
 enum hm_err hm_buckets_look(struct hm_buckets *b, int32_t v, struct hm_diag *d)
@@ -51,33 +52,47 @@ enum hm_err hm_buckets_look(struct hm_buckets *b, int32_t v, struct hm_diag *d)
     int32_t first = hm_tri_edge_from(t, v), e = first;
     b->n_star = 0;
     do {
-        if (!hm_grow(&b->star, &b->cap_star, b->n_star + 1, sizeof *b->star))
+        if (!hm_grow(&b->star, &b->cap_star, b->n_star + 1, sizeof *b->star) ||
+            !hm_grow(&b->rim, &b->cap_rim, 2 * b->n_star + 2, sizeof *b->rim))
             return hm_fail_memory(d);
-        if (hm_domain_is_inside(b->dom, e / 3))
+        if (hm_domain_is_inside(b->dom, e / 3)) {
+            b->rim[2 * b->n_star] = hm_tri_xy(t, hm_tri_dest(t, e));
+            b->rim[2 * b->n_star + 1] = hm_tri_xy(t, hm_tri_apex(t, e));
             b->star[b->n_star++] = e;
+        }
         e = hm_tri_twin(t, hm_tri_prev(e));
     } while (e != first);
     return make_room(b, d);
 }
 
-size_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p)
+/* For a place that no triangle of the star claims: the one of which it is the least beyond. */
+static size_t nearest_sector(const struct hm_buckets *b, const double *v, const double *p)
 {
-    const struct hm_tri *t = b->dom->tri;
     size_t nearest = 0;
     double least = INFINITY;
     for (size_t k = 0; k < b->n_star; k++) {
-        const double *from = hm_tri_xy(t, hm_tri_dest(t, b->star[k]));
-        const double *to = hm_tri_xy(t, hm_tri_apex(t, b->star[k]));
-        double after = hm_area2(v, from, p), before = hm_area2(to, v, p);
-        if (after >= 0 && before > 0)
-            return k;
-        double beyond = -fmin(after, before);
+        const double *from = b->rim[2 * k], *to = b->rim[2 * k + 1];
+        double beyond = fmax(-hm_area2(v, from, p), hm_area2(v, to, p));
         if (beyond < least && hm_area2(from, to, p) <= hm_area2(from, to, v)) {
             least = beyond;
             nearest = k;
         }
     }
     return nearest;
+}
+
+size_t hm_buckets_sector(const struct hm_buckets *b, const double *v, const double *p)
+{
+    const double *last = NULL;
+    double after = 0, before = 0; /* how far left of its first edge, and of its last */
+    for (size_t k = 0; k < b->n_star; k++) {
+        after = b->rim[2 * k] == last ? before : hm_area2(v, b->rim[2 * k], p);
+        last = b->rim[2 * k + 1];
+        before = hm_area2(v, last, p);
+        if (after >= 0 && before < 0)
+            return k;
+    }
+    return nearest_sector(b, v, p);
 }
 
 void hm_buckets_deal(struct hm_buckets *b, const double *v, int32_t but)

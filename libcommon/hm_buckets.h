@@ -12,8 +12,9 @@ struct hm_buckets {
     int32_t *first;    /* by triangle: a measurement in it, or HM_NOBODY */
     int32_t *next;     /* by measurement: another one in its triangle */
     size_t n_first, cap_first;
-    int32_t *star; /* the star looked at last: edges from its vertex, of triangles inside */
-    size_t n_star, cap_star;
+    int32_t *star;      /* the star looked at last: edges from its vertex, of triangles inside */
+    const double **rim; /* the other two corners of each, left of its edge from the vertex */
+    size_t n_star, cap_star, cap_rim;
 };
 
 /* Sort n measurements, which stay the caller's, into the triangles inside a triangulated domain. */

@@ -25,9 +25,11 @@ struct even {
     const struct hm_even_options *o;
     struct hm_star_rules rules;
     struct hm_diag *d;
-    int32_t first; /* vertices from here on are new */
-    struct pair *pair;
+    int32_t first;     /* vertices from here on are new */
+    struct pair *pair; /* bad ones */
     size_t n_pairs, cap_pairs;
+    int32_t *touched; /* vertices around which triangles have changed */
+    size_t n_touched, cap_touched;
 };
 
 static bool is_free(const struct even *w, int32_t v)
@@ -105,17 +107,37 @@ static bool are_sizes_kept(const struct even *w, int32_t v, const struct hm_star
     return kept;
 }
 
+/* Triangles around a vertex change, or have changed. */
+static enum hm_err touch(struct even *w, int32_t v)
+{
+    int32_t first = hm_tri_edge_from(w->t, v), e = first;
+    do {
+        if (!hm_grow(&w->touched, &w->cap_touched, w->n_touched + 1, sizeof *w->touched))
+            return hm_fail_memory(w->d);
+        w->touched[w->n_touched++] = hm_tri_dest(w->t, e);
+        e = hm_tri_twin(w->t, hm_tri_prev(e));
+    } while (e != first);
+    return HM_OK;
+}
+
 /* Move a vertex; back when that makes elements too large. */
 static enum hm_err move(struct even *w, int32_t v, const double *p, const struct hm_star *s,
                         bool *moved)
 {
     const double *at = hm_tri_xy(w->t, v), before[2] = {at[0], at[1]};
-    enum hm_err err = hm_tri_move(w->t, v, p[0], p[1], w->d);
-    *moved = !err;
-    if (err)
-        return err == HM_EARG ? HM_OK : err;
-    *moved = are_sizes_kept(w, v, s);
-    return *moved ? HM_OK : hm_tri_move(w->t, v, before[0], before[1], w->d);
+    size_t touched = w->n_touched;
+    enum hm_err err = touch(w, v);
+    if (!err)
+        err = hm_tri_move(w->t, v, p[0], p[1], w->d);
+    *moved = !err && are_sizes_kept(w, v, s);
+    if (*moved)
+        return touch(w, v);
+    if (err == HM_EARG) /* no place for it */
+        err = HM_OK;
+    else if (!err)
+        err = hm_tri_move(w->t, v, before[0], before[1], w->d);
+    w->n_touched = touched;
+    return err;
 }
 
 static enum hm_err relax(struct even *w, int32_t v)
@@ -211,23 +233,76 @@ static int by_vertices(const void *pa, const void *pb)
     return (a->b > b->b) - (a->b < b->b);
 }
 
-static enum hm_err find_pairs(struct even *w)
+/* Note the pair at an edge when it is bad. */
+static enum hm_err check_pair(struct even *w, int32_t e)
 {
     const struct hm_tri *t = w->t;
-    w->n_pairs = 0;
-    for (int32_t e = 0; e < 3 * hm_tri_triangles(t); e++) {
-        int32_t twin = hm_tri_twin(t, e);
-        if (!hm_domain_is_inside(w->dom, e / 3) ||
-            (hm_domain_is_inside(w->dom, twin / 3) && twin < e) ||
-            hm_star_excess(&w->rules, e) == 0)
-            continue;
-        if (!hm_grow(&w->pair, &w->cap_pairs, w->n_pairs + 1, sizeof *w->pair))
-            return hm_fail_memory(w->d);
-        int32_t a = hm_tri_org(t, e), b = hm_tri_dest(t, e);
-        w->pair[w->n_pairs++] = (struct pair){a < b ? a : b, a < b ? b : a};
-    }
-    qsort(w->pair, w->n_pairs, sizeof *w->pair, by_vertices);
+    if ((!hm_domain_is_inside(w->dom, e / 3) &&
+         !hm_domain_is_inside(w->dom, hm_tri_twin(t, e) / 3)) ||
+        hm_star_excess(&w->rules, e) == 0)
+        return HM_OK;
+    if (!hm_grow(&w->pair, &w->cap_pairs, w->n_pairs + 1, sizeof *w->pair))
+        return hm_fail_memory(w->d);
+    int32_t a = hm_tri_org(t, e), b = hm_tri_dest(t, e);
+    w->pair[w->n_pairs++] = (struct pair){a < b ? a : b, a < b ? b : a};
     return HM_OK;
+}
+
+/* Pairs in order, each once. */
+static void sort_pairs(struct even *w)
+{
+    size_t n = 0;
+    qsort(w->pair, w->n_pairs, sizeof *w->pair, by_vertices);
+    for (size_t k = 0; k < w->n_pairs; k++)
+        if (n == 0 || by_vertices(&w->pair[n - 1], &w->pair[k]) != 0)
+            w->pair[n++] = w->pair[k];
+    w->n_pairs = n;
+}
+
+static enum hm_err find_pairs(struct even *w)
+{
+    enum hm_err err = HM_OK;
+    for (int32_t e = 0; !err && e < 3 * hm_tri_triangles(w->t); e++)
+        if (hm_domain_is_inside(w->dom, e / 3))
+            err = check_pair(w, e);
+    sort_pairs(w);
+    return err;
+}
+
+static int by_number(const void *pa, const void *pb)
+{
+    const int32_t *a = pa, *b = pb;
+    return (*a > *b) - (*a < *b);
+}
+
+/* Of the pairs those that are still bad, and those that became so around what was touched. */
+static enum hm_err find_pairs_again(struct even *w)
+{
+    const struct hm_tri *t = w->t;
+    enum hm_err err = HM_OK;
+    size_t n = 0;
+    int32_t e;
+    for (size_t k = 0; k < w->n_pairs; k++)
+        if (is_bad(w, &w->pair[k], &e))
+            w->pair[n++] = w->pair[k];
+    w->n_pairs = n;
+    qsort(w->touched, w->n_touched, sizeof *w->touched, by_number);
+    for (size_t k = 0; !err && k < w->n_touched; k++) {
+        int32_t v = w->touched[k],
+                first = v == HM_TRI_INFINITY ? HM_TRI_NONE : hm_tri_edge_from(t, v);
+        if (first == HM_TRI_NONE || (k > 0 && w->touched[k - 1] == v))
+            continue;
+        e = first;
+        do {
+            err = check_pair(w, e);
+            if (!err)
+                err = check_pair(w, hm_tri_next(e));
+            e = hm_tri_twin(t, hm_tri_prev(e));
+        } while (!err && e != first);
+    }
+    w->n_touched = 0;
+    sort_pairs(w);
+    return err;
 }
 
 static enum hm_err go(struct even *w)
@@ -241,7 +316,7 @@ static enum hm_err go(struct even *w)
                 err = add_node(w, e);
         }
         if (!err)
-            err = find_pairs(w);
+            err = find_pairs_again(w);
     }
     return err;
 }
@@ -295,5 +370,6 @@ enum hm_err hm_even_reach(struct hm_domain *dom, const struct hm_even_options *o
     }
     hm_star_close(&w.rules);
     free(w.pair);
+    free(w.touched);
     return err ? err : hm_domain_adopt(dom, w.first, d);
 }

@@ -49,23 +49,30 @@ static struct plane plane_of(const double *p, const struct hm_node *a, const str
     return (struct plane){(uz * wy - wz * uy) / det, (wz * ux - uz * wx) / det};
 }
 
-/* Of the measurements in the star that the buckets looked at, with its vertex at p (x, y, z). */
-static void measure(const struct settle *w, const double *p, double *worst, double *squares)
+/* How far measurements are from the mesh. */
+struct misfit {
+    double worst, squares;
+};
+
+/* Of those in the star that the buckets looked at, with its vertex at p (x, y, z); moved: it is
+ * elsewhere, so they may be in other triangles. */
+static struct misfit measure(const struct settle *w, const double *p, bool moved)
 {
     const struct hm_buckets *b = &w->bucket;
     struct plane plane[HM_STAR_MOST];
+    struct misfit is = {0, 0};
     for (size_t k = 0; k < b->n_star; k++)
         plane[k] = plane_of(p, node_at(w, hm_tri_dest(w->t, b->star[k])),
                             node_at(w, hm_tri_apex(w->t, b->star[k])));
-    *worst = *squares = 0;
     for (size_t k = 0; k < b->n_star; k++)
         for (int32_t c = b->first[b->star[k] / 3]; c != HM_NOBODY; c = b->next[c]) {
             const double *m = hm_buckets_at(b, c);
-            const struct plane *in = &plane[hm_buckets_sector(b, p, m)];
+            const struct plane *in = &plane[moved ? hm_buckets_sector(b, p, m) : k];
             double off = m[2] - p[2] - in->dzdx * (m[0] - p[0]) - in->dzdy * (m[1] - p[1]);
-            *worst = fmax(*worst, fabs(off));
-            *squares += off * off;
+            is.worst = fabs(off) > is.worst ? fabs(off) : is.worst;
+            is.squares += off * off;
         }
+    return is;
 }
 
 /* --- one node --- */
@@ -108,13 +115,13 @@ static bool is_near_corner(const struct settle *w, const struct hm_star *s, cons
 
 /* May the vertex of the star be at p? */
 static bool is_better(const struct settle *w, const struct hm_star *s, const double *p,
-                      double before, const double misfit[2])
+                      double before, const struct misfit *was)
 {
-    double worst, squares, now = hm_star_rate(&w->rules, s, p);
+    double now = hm_star_rate(&w->rules, s, p);
     if (!isfinite(now) || now > before || is_near_corner(w, s, p) || would_flip(w, p))
         return false;
-    measure(w, p, &worst, &squares);
-    return worst <= fmax(misfit[0], w->o->bound) && squares <= misfit[1];
+    struct misfit is = measure(w, p, true);
+    return is.worst <= fmax(was->worst, w->o->bound) && is.squares <= was->squares;
 }
 
 /* The vertex of the star has moved. */
@@ -134,17 +141,17 @@ static enum hm_err settle_vertex(struct settle *w, int32_t v, int64_t *moved)
     enum hm_err err = hm_buckets_look(&w->bucket, v, w->d);
     if (err || !hm_star_look(&w->rules, v, &s))
         return err;
-    double mean[2], misfit[2], before = hm_star_rate(&w->rules, &s, &node->x);
+    double mean[2], before = hm_star_rate(&w->rules, &s, &node->x);
     mean_of_neighbours(w, mean);
     w->stirred[v] = false;
     double way[2] = {mean[0] - node->x, mean[1] - node->y};
     if (hypot(way[0], way[1]) < LEAST_WAY * s.shortest)
         return HM_OK;
-    measure(w, &node->x, &misfit[0], &misfit[1]);
+    struct misfit was = measure(w, &node->x, false);
     for (double part = 1; part > 0.2; part /= 2) {
         double p[3] = {node->x + part * way[0], node->y + part * way[1], 0};
         p[2] = hm_terrain_z_nearest(w->o->terrain, p[0], p[1], &w->hint);
-        if (!is_better(w, &s, p, before, misfit))
+        if (!is_better(w, &s, p, before, &was))
             continue;
         err = hm_tri_move(w->t, v, p[0], p[1], w->d);
         if (err)

@@ -1,6 +1,7 @@
 /* hm_assemble_ground: the ground to be meshed, and the domain that it makes. See
  * hm_assemble_private.h. */
 #include "hm_assemble_private.h"
+#include "hm_median.h"
 #include "hm_polyline.h"
 
 #include <math.h>
@@ -183,12 +184,6 @@ static void note_beside(const struct hm_build *b, struct hm_domain *dom)
     }
 }
 
-static int by_value(const void *pa, const void *pb)
-{
-    const double *a = pa, *b = pb;
-    return (*a > *b) - (*a < *b);
-}
-
 static enum hm_err find_median(struct hm_build *b, const struct hm_domain *dom, struct hm_diag *d)
 {
     double *length = hm_alloc(dom->nedges, sizeof *length);
@@ -198,8 +193,7 @@ static enum hm_err find_median(struct hm_build *b, const struct hm_domain *dom, 
     for (size_t k = 0; k < dom->nedges; k++)
         if (dom->edge[k].marks & HM_EDGE_BREAKLINE)
             length[n++] = edge_length(dom, &dom->edge[k]);
-    qsort(length, n, sizeof *length, by_value);
-    b->counts->median_segment = n > 0 ? length[n / 2] : 0;
+    b->counts->median_segment = hm_median(length, n);
     free(length);
     return HM_OK;
 }

@@ -3,6 +3,7 @@
 
 #include "hm_attr.h"
 #include "hm_elem.h"
+#include "hm_median.h"
 #include "hm_plane.h"
 #include "hm_polyline.h"
 #include "hm_pred.h"
@@ -146,12 +147,6 @@ enum hm_err hm_fence_build(struct hm_fence **out, const struct hm_mesh *mesh, si
     return err;
 }
 
-static int by_value(const void *pa, const void *pb)
-{
-    const double *a = pa, *b = pb;
-    return (*a > *b) - (*a < *b);
-}
-
 enum hm_err hm_fence_median_edge(const struct hm_mesh *mesh, size_t n, double *edge,
                                  struct hm_diag *d)
 {
@@ -171,9 +166,7 @@ enum hm_err hm_fence_median_edge(const struct hm_mesh *mesh, size_t n, double *e
         }
         free(e);
     }
-    if (!err && count > 0)
-        qsort(length, count, sizeof *length, by_value);
-    *edge = !err && count > 0 ? length[count / 2] : 0;
+    *edge = err ? 0 : hm_median(length, count);
     free(length);
     return err;
 }

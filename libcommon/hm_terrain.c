@@ -1,6 +1,7 @@
 /* hm_terrain: see hm_terrain.h. */
 #include "hm_terrain.h"
 #include "hm_bilinear.h"
+#include "hm_median.h"
 #include "hm_role.h"
 #include "hm_tin.h"
 
@@ -210,12 +211,6 @@ double hm_terrain_z_nearest(const struct hm_terrain *t, double x, double y, int3
 
 /* --- gaps --- */
 
-static int by_value(const void *pa, const void *pb)
-{
-    const double *a = pa, *b = pb;
-    return (*a > *b) - (*a < *b);
-}
-
 enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, struct hm_diag *d)
 {
     enum { SAMPLE = 100000 };
@@ -233,8 +228,7 @@ enum hm_err hm_terrain_spacing(const struct hm_terrain *t, double *spacing, stru
             const double *to = hm_tri_xy(tri, hm_tri_dest(tri, e));
             length2[n++] = distance2(hm_tri_xy(tri, hm_tri_org(tri, e)), to[0], to[1]);
         }
-    qsort(length2, n, sizeof *length2, by_value);
-    *spacing = n > 0 ? sqrt(length2[n / 2]) : 0;
+    *spacing = sqrt(hm_median(length2, n));
     free(length2);
     return HM_OK;
 }

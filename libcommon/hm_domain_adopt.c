@@ -10,8 +10,11 @@ static enum hm_err add_nodes(struct hm_domain *dom, int32_t first, struct hm_dia
 {
     int32_t vertices = hm_tri_vertices(dom->tri);
     int32_t *node_of = hm_alloc((size_t)vertices, sizeof *node_of);
-    if (!node_of)
+    if (!node_of || !hm_grow(&dom->node, &dom->node_cap, dom->nnodes + (size_t)(vertices - first),
+                             sizeof *dom->node)) {
+        free(node_of);
         return hm_fail_memory(d);
+    }
     memcpy(node_of, dom->node_of, (size_t)first * sizeof *node_of);
     free(dom->node_of);
     dom->node_of = node_of;

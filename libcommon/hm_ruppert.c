@@ -45,14 +45,18 @@ enum hm_err hm_ruppert_reach(struct hm_domain *dom, const struct hm_ruppert_opti
                              struct hm_tri_refined *left, struct hm_diag *d)
 {
     struct hm_tri_quality q = {.min_angle = o->min_angle,
+                               .max_area = o->sizes->max_area,
                                .max_edge = o->sizes->max_edge,
-                               .area_at = hm_sizes_area,
                                .arg = (void *)o->sizes,
                                .growth = o->growth,
                                .whole = HM_EDGE_REGULAR,
                                .outside = 0,
                                .hull_marks = HM_EDGE_BORDER};
     double wanted;
+    if (!hm_sizes_are_equal(o->sizes)) {
+        q.max_area = 0;
+        q.area_at = hm_sizes_area;
+    }
     enum hm_err err = hm_domain_triangulate(dom, o->threads, d);
     if (!err)
         err = check_size(o->sizes, &wanted, d);

@@ -78,6 +78,14 @@ double hm_sizes_area(void *sizes, double x, double y, int32_t region)
     return here < area || (area == 0 && here > 0) ? here : area;
 }
 
+bool hm_sizes_are_equal(const struct hm_sizes *s)
+{
+    for (size_t k = 0; k < s->dom->nzones; k++)
+        if (s->dom->zone[k].max_area > 0)
+            return false;
+    return !s->grid;
+}
+
 /* Cells of the grid, by the sizes at their lower left nodes. */
 static double nodes_of_grid(const struct hm_sizes *s)
 {

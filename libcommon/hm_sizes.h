@@ -27,6 +27,9 @@ enum hm_err hm_sizes_limit(struct hm_grid *grid, size_t band, double growth, str
  * hm_tri_quality wants it. */
 double hm_sizes_area(void *sizes, double x, double y, int32_t region);
 
+/* Is the largest area max_area everywhere? */
+bool hm_sizes_are_equal(const struct hm_sizes *s);
+
 /* About how many nodes they make on the triangulated domain. */
 double hm_sizes_nodes(const struct hm_sizes *s);
 

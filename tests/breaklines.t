@@ -48,19 +48,25 @@ awk 'BEGIN { print "#hm 1 grid text"; print "#size 200 200"; print "#origin 0 0"
 breaklines -s 8 -l 0 rough.hm >all.hm 2>err
 breaklines -s 8 rough.hm >long.hm 2>/dev/null
 true_that "short lines are dropped" "$(count long.hm) < $(count all.hm)"
-true_that "the default is 10 spacings" "$(sed -n 's/^>.*length=\([0-9.]*\).*/\1/p' long.hm | sort -n | head -n 1) >= 20"
+true_that "the default is 20 spacings" "$(sed -n 's/^>.*length=\([0-9.]*\).*/\1/p' long.hm | sort -n | head -n 1) >= 40"
 true_that "closed lines" "$(grep -c 'closed=1' all.hm) > 10"
 breaklines -s 8 -l 50 rough.hm >l50.hm 2>/dev/null
 true_that "another minimum" "$(sed -n 's/^>.*length=\([0-9.]*\).*/\1/p' l50.hm | sort -n | head -n 1) >= 50"
-breaklines -s 8 -e 0.5 rough.hm >simple.hm 2>/dev/null
-true_that "simplified" "$(grep -vc '^[#>]' simple.hm) < 0.8 * $(grep -vc '^[#>]' long.hm) && $(count simple.hm) == $(count long.hm)"
+breaklines -s 8 -l 0 -e 0.5 rough.hm >simple.hm 2>/dev/null
+true_that "simplified" "$(grep -vc '^[#>]' simple.hm) < 0.8 * $(grep -vc '^[#>]' all.hm) && $(count simple.hm) == $(count all.hm)"
 breaklines -s 8 -r 5 rough.hm >equal.hm 2>/dev/null
 true_that "resampled" "$(awk '/^>/ { n = 0; next } !/^#/ { if (n++) { d = sqrt(($1 - x) ^ 2 + ($2 - y) ^ 2)
     if (d > 5.9) bad++ } x = $1; y = $2 } END { print bad + 0 }' equal.hm) == 0"
-breaklines -s 8 -w 0.5 rough.hm >smooth.hm 2>/dev/null
+breaklines -s 8 -w 0 -l 0 rough.hm >raw.hm 2>/dev/null
 sum='s/^>.*length=\([0-9.]*\).*/\1/p'
-true_that "smoothed lines are shorter" "$(sed -n "$sum" smooth.hm | awk '{ s += $1 } END { print s }') < \
-    $(sed -n "$sum" long.hm | awk '{ s += $1 } END { print s }')"
+true_that "smoothed lines are shorter" "$(sed -n "$sum" all.hm | awk '{ s += $1 } END { print s }') < \
+    $(sed -n "$sum" raw.hm | awk '{ s += $1 } END { print s }')"
+breaklines -s 8 -w 1 -l 0 rough.hm 2>/dev/null | grep '^[^#]' >half
+grep '^[^#]' all.hm >unasked
+same "by half a spacing, unless asked" half unasked
+true_that "vertices stay within it" "$(breaklines -s 8 -l 0 -w 0.3 rough.hm 2>/dev/null | paste - raw.hm | awk '$1 ~ /^[0-9]/ {
+    d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; if (d > m) m = d; n++ } END { print (n > 9999 ? m : 9) }') <= 0.3 ^ 2 + 1e-9"
+must_fail "a negative one" 2 'smooth: must not be less than 0' breaklines -w -1 rough.hm
 ok "all at once" breaklines -s 8 -w 0.5 -e 0.3 -r 6 rough.hm
 for options in "" "-m node" "-x mean" "-e 1 -w 1"; do
     breaklines -s 8 $options -j 1 rough.hm >a.hm 2>/dev/null

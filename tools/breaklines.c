@@ -28,12 +28,12 @@ static struct {
     const char *slope_file;
     double least; /* metres */
     double simplify, resample, smooth;
-    bool least_given, resampled, simplified, smoothed;
+    bool least_given, smooth_given, resampled, simplified;
 } cmd;
 
 static const struct hm_option options[] = {
     {'s', "limit", "LIMIT[,...]", HM_OPT_TEXT, &cmd.limits,
-     .help = "limits, degrees or 10% (default 5); curvature: 1/m (0.06)"},
+     .help = "limits, degrees or 10% (default 11); curvature: 1/m (0.06)"},
     {'m', "mode", "NAME", HM_OPT_CHOICE, &cmd.mode,
      .help = "border of the steep, or ridges of curvature (default interp)",
      .choices = "interp|node|curvature"},
@@ -41,9 +41,10 @@ static const struct hm_option options[] = {
      .help = "vertices: the crossings of a cell, or their mean (default split)",
      .choices = "split|mean"},
     {'l', "min-length", "M", HM_OPT_NUMBER, &cmd.least,
-     .help = "drop shorter lines, m (default 10 grid spacings)", .given = &cmd.least_given},
-    {'w', "smooth", "M", HM_OPT_POSITIVE, &cmd.smooth,
-     .help = "smooth; no vertex moves further than this, m", .given = &cmd.smoothed},
+     .help = "drop shorter lines, m (default 20 spacings)", .given = &cmd.least_given},
+    {'w', "smooth", "M", HM_OPT_NUMBER, &cmd.smooth,
+     .help = "smooth; no vertex moves further than this, m (default half a spacing)",
+     .given = &cmd.smooth_given},
     {'e', "simplify", "M", HM_OPT_POSITIVE, &cmd.simplify,
      .help = "leave out vertices; the line moves no further than this, m",
      .given = &cmd.simplified},
@@ -83,7 +84,9 @@ struct tool {
     struct hm_cli *cli;
     struct limit *limit;
     size_t nlimits;
-    double least;         /* metres */
+    double least;         /* metres, in this grid */
+    double shortest;      /* the least of these */
+    double smooth;        /* metres, for all grids */
     struct hm_lines held; /* lines to be simplified, when all are known */
     int64_t found, found_vertices, dropped, written, written_vertices;
     struct hm_lattice *traced; /* the lattices of the grids so far */
@@ -135,10 +138,12 @@ static void parse_limit(struct tool *t, const char *s, const char *end)
 static void parse_limits(struct tool *t)
 {
     if (!cmd.limits)
-        cmd.limits = cmd.mode == CURVATURE ? "0.06" : "5";
+        cmd.limits = cmd.mode == CURVATURE ? "0.06" : "11";
     t->limit = need(t->cli, strlen(cmd.limits) + 1, sizeof *t->limit);
     if (cmd.least < 0)
         hm_cli_die(t->cli, "--min-length: must not be less than 0, not %g", cmd.least);
+    if (cmd.smooth < 0)
+        hm_cli_die(t->cli, "--smooth: must not be less than 0, not %g", cmd.smooth);
     const char *s = cmd.limits, *end;
     do {
         end = s + strcspn(s, ",");
@@ -236,9 +241,9 @@ static enum hm_err write_line(struct tool *t, const struct hm_line *line, struct
 }
 
 /* Lines must not cross, so all are to be known before any of them changes. */
-static bool changes_lines(void)
+static bool changes_lines(const struct tool *t)
 {
-    return cmd.smoothed || cmd.simplified || cmd.resampled;
+    return t->smooth > 0 || cmd.simplified || cmd.resampled;
 }
 
 /* A line as it was found: clean it, judge it, and let it out unless all are needed first. */
@@ -258,7 +263,7 @@ static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_d
         t->dropped++;
         return HM_OK;
     }
-    return changes_lines() ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
+    return changes_lines(t) ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
 }
 
 /* --- one grid --- */
@@ -356,13 +361,27 @@ static void do_slope(struct tool *t, const struct hm_header *h, struct source *h
     free(slopes.row);
 }
 
+/* What was not given depends on the spacing of the nodes; the border of nodes is a zigzag by
+ * intent. */
+static void use_lattice(struct tool *t, const struct hm_lattice *l)
+{
+    double dx = fabs(l->dx), dy = fabs(l->dy);
+    t->least = cmd.least_given ? cmd.least : 20 * fmax(dx, dy);
+    bool first = t->ntraced == 1;
+    t->shortest = first ? t->least : fmin(t->shortest, t->least);
+    if (!cmd.smooth_given && cmd.mode != HM_CONTOUR_NODE)
+        t->smooth = fmin(first ? INFINITY : t->smooth, fmin(dx, dy) / 2);
+    else
+        t->smooth = cmd.smooth;
+}
+
 static void do_grid(struct tool *t, const struct hm_header *h)
 {
     int column = hm_header_field(h, "z");
     if (column < 2)
         hm_cli_die(t->cli, "%s: the grid has no band z", hm_reader_name(hm_cli_reader(t->cli)));
     struct source heights = make_source(t->cli, hm_cli_reader(t->cli), h, column);
-    t->least = cmd.least_given ? cmd.least : 10 * fmax(fabs(h->lattice.dx), fabs(h->lattice.dy));
+    use_lattice(t, &h->lattice);
     if (cmd.mode == CURVATURE) {
         open_limits(t, h, HM_SLOPE_DEGREE);
         trace_curvature(t, &heights, h->lattice.ny);
@@ -417,14 +436,17 @@ static void write_held(struct tool *t)
 {
     struct hm_diag d = {0};
     size_t back = 0, follow = 0;
-    if (cmd.smoothed)
-        hm_cli_check(t->cli, hm_uncross_smooth(&t->held, cmd.smooth, &back, &d), &d);
+    if (t->smooth > 0)
+        hm_cli_check(t->cli, hm_uncross_smooth(&t->held, t->smooth, &back, &d), &d);
     if (cmd.simplified)
         hm_cli_check(t->cli, hm_simplify(&t->held, cmd.simplify, &d), &d);
     if (cmd.resampled)
         hm_cli_check(t->cli, hm_uncross_resample(&t->held, cmd.resample, &follow, &d), &d);
     for (size_t k = 0; k < t->held.n; k++)
-        hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
+        if (hm_polyline_length(&t->held.line[k]) < t->shortest)
+            t->dropped++; /* now that it is smooth */
+        else
+            hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
     hm_lines_free(&t->held);
     if (back + follow > 0)
         hm_cli_say(t->cli, "%s not smoothed, %s not resampled: lines would cross",
@@ -435,7 +457,7 @@ static void write_held(struct tool *t)
 static void finish_output(struct tool *t)
 {
     struct hm_diag d = {0};
-    if (changes_lines())
+    if (changes_lines(t))
         write_held(t);
     hm_cli_check(t->cli, hm_writer_end(hm_cli_writer(t->cli), &d), &d);
     hm_cli_say(t->cli, "%s found (%s), %lld dropped (shorter than %g m), %lld written (%s)",

@@ -18,14 +18,15 @@ survey() {
     bsgrid --quiet --density "$1/survey.xyz" >"$1/cover.hm"
 }
 
-# The ways to breaklines, each from a survey to found.hm.
-old_way() { bsgrid --quiet -b -n 0 -k 1 "$1" | slope -b | breaklines --quiet -m node -s 11 -l 30 >found.hm; }
-paper_5() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet -s 5 -l 30 >found.hm; }
-paper_half() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet -s 11 -l 30 >found.hm; }
-smoothed() { bsgrid --quiet -b -B 6 "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
-points() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
-fine() { bsgrid --quiet -b -B 6 -n 2 -f points -O 2 "$1" | slope -b | breaklines --quiet -s 11 -l 30 -w 0.5 >found.hm; }
-curvature() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | breaklines --quiet -m curvature -l 20 >found.hm; }
+# The ways to breaklines, each from a survey to found.hm. The defaults are a limit of 11 degrees and lines
+# smoothed by half a spacing.
+old_way() { bsgrid --quiet -b -n 0 -k 1 "$1" | slope -b | breaklines --quiet -m node -l 30 >found.hm; }
+paper_5() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet -s 5 -l 30 -w 0 >found.hm; }
+paper_half() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet -l 30 -w 0 >found.hm; }
+defaults() { bsgrid --quiet -b "$1" | slope -b | breaklines --quiet >found.hm; }
+points() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | slope -b | breaklines --quiet >found.hm; }
+fine() { bsgrid --quiet -b -B 6 -n 2 -f points -O 2 "$1" | slope -b | breaklines --quiet -l 20 -w 0.5 >found.hm; }
+curvature() { bsgrid --quiet -b -B 6 -n 3 -f points "$1" | breaklines --quiet -m curvature >found.hm; }
 gdal() { # the same start grid; contour lines of the slope, those shorter than 30 m left out
     bsgrid --quiet -n 0 -k 1 "$1" | hmconv -t asc >dem.asc
     gdaldem slope -q dem.asc slope.tif
@@ -40,15 +41,15 @@ breaklines_of_gmt() {
         END { put() }' "$1"
 }
 
-ways="old_way paper_5 paper_half smoothed points fine curvature"
+ways="old_way paper_5 paper_half defaults points fine curvature"
 name() {
     case $1 in
     old_way) echo "linear grid, nodes, 11" ;;
     paper_5) echo "B-spline, interpolated, 5" ;;
     paper_half) echo "B-spline, interpolated, 11" ;;
-    smoothed) echo "... -B 6, smoothed -w 0.5" ;;
-    points) echo "... and -n 3 -f points" ;;
-    fine) echo "... -n 2 -f points -O 2" ;;
+    defaults) echo "the defaults" ;;
+    points) echo "... -B 6 -n 3 -f points" ;;
+    fine) echo "... -B 6 -n 2 -f points -O 2" ;;
     curvature) echo "-m curvature" ;;
     gdal) echo "gdaldem, gdal_contour, 11" ;;
     esac
@@ -77,7 +78,7 @@ done
 
 # goals, for lines at half the bank's slope
 echo
-awk '$1 == "main,tributary,levee" && $2 == "0.05" && $3 ~ /^(paper_half|smoothed|points|fine|curvature)$/ {
+awk '$1 == "main,tributary,levee" && $2 == "0.05" && $3 ~ /^(paper_half|defaults|points|fine|curvature)$/ {
         goal($3 " p95, m", $5, "<=", 0.75); goal($3 " found, %", $6, ">=", 97)
         goal($3 " false, %", $7, "<=", 3); goal($3 " ratio", $8, "<=", 1.03) }
     function goal(what, got, sign, want, ok) {

@@ -49,6 +49,14 @@ struct decimal {
     int64_t last;            /* power of ten of the last digit */
 };
 
+/* Eight characters as a word, the first one lowest. */
+static uint64_t load_eight(const char *s)
+{
+    uint64_t word;
+    memcpy(&word, s, sizeof word);
+    return __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? __builtin_bswap64(word) : word;
+}
+
 static bool is_digit(char c)
 {
     return (unsigned char)(c - '0') < 10;
@@ -190,15 +198,17 @@ static uint64_t round_decimal(const struct decimal *dec)
     return stored + mantissa + up;
 }
 
+/* Powers of ten that are doubles */
+static const double power_of_10[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
 static double value_of(const struct decimal *dec)
 {
-    static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     /* Both operands are exact, so one operation is rounded once (Clinger 1990). */
     if (dec->w <= 2 * HIDDEN && dec->exponent >= -22 && dec->exponent <= 22 && !dec->cut) {
         double w = (double)dec->w;
-        return dec->exponent < 0 ? w / power[-dec->exponent] : w * power[dec->exponent];
+        return dec->exponent < 0 ? w / power_of_10[-dec->exponent] : w * power_of_10[dec->exponent];
     }
     return dec->w ? double_of_bits(round_decimal(dec)) : 0;
 }
@@ -259,32 +269,74 @@ static const char *parse_exponent(const char *s, const char *end, int64_t *expon
     return p;
 }
 
-const char *hm_num_parse(const char *s, const char *end, double *value)
+/* The digits, eight at most, that the eight characters at s begin with, as an integer; *n: how
+ * many. All are looked at together, as the bytes of a word: a loop would be left after a number of
+ * digits that no processor foresees. */
+static uint64_t digits_of_eight(const char *s, unsigned *n)
 {
-    const char *p = s;
-    bool minus = p < end && *p == '-';
-    if (p < end && (*p == '-' || *p == '+'))
-        p++;
-    struct decimal dec = {.first = p};
-    for (; p < end && is_digit(*p); p++)
-        dec.w = dec.w * 10 + (uint64_t)(*p - '0');
-    ptrdiff_t digits = p - dec.first;
-    if (p < end && *p == '.') {
-        const char *point = p++;
-        for (; p < end && is_digit(*p); p++)
-            dec.w = dec.w * 10 + (uint64_t)(*p - '0');
-        dec.exponent = -(p - point - 1);
-        digits -= dec.exponent;
+    uint64_t c = load_eight(s) ^ 0x3030303030303030; /* a digit becomes 0 .. 9 */
+    uint64_t other = (c | (c + 0x7676767676767676)) & 0x8080808080808080; /* what is over 9 */
+    *n = other ? (unsigned)__builtin_ctzll(other) / 8 : 8;
+    if (*n == 0)
+        return 0;
+    c <<= 64 - 8 * *n; /* as if zeros stood before them */
+    c = (c * 10 + (c >> 8)) & 0x00FF00FF00FF00FF;
+    c = (c * 100 + (c >> 16)) & 0x0000FFFF0000FFFF;
+    return (c * 10000 + (c >> 32)) & UINT32_MAX;
+}
+
+/* Append the digits at s to *w; returns what follows them. */
+static const char *parse_digits(const char *s, const char *end, uint64_t *w)
+{
+    static const uint64_t power[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+    while (end - s >= 8) {
+        unsigned n;
+        uint64_t part = digits_of_eight(s, &n);
+        *w = *w * power[n] + part;
+        s += n;
+        if (n < 8)
+            return s;
     }
-    if (digits == 0)
-        return parse_word(dec.first, end, minus, value);
-    dec.end = p;
+    for (; s < end && is_digit(*s); s++)
+        *w = *w * 10 + (uint64_t)(*s - '0');
+    return s;
+}
+
+/* What needs more than one division. The digits from `first` to p are w, with so many decimals. */
+static const char *parse_slowly(const char *first, const char *p, const char *end, uint64_t w,
+                                ptrdiff_t digits, ptrdiff_t decimals, double *value)
+{
+    struct decimal dec = {.w = w, .exponent = -decimals, .first = first, .end = p};
     p = parse_exponent(p, end, &dec.exponent);
     dec.last = dec.exponent;
     if (digits > FITTING_DIGITS)
         cut_digits(&dec);
-    double v = value_of(&dec);
-    *value = minus ? -v : v;
+    *value = value_of(&dec);
+    return p;
+}
+
+const char *hm_num_parse(const char *s, const char *end, double *value)
+{
+    enum { EXACT_DIGITS = 15 }; /* an integer of so many is a double */
+    bool minus = s < end && *s == '-';
+    const char *first = s < end && (*s == '-' || *s == '+') ? s + 1 : s;
+    uint64_t w = 0;
+    const char *p = parse_digits(first, end, &w);
+    ptrdiff_t digits = p - first, decimals = 0;
+    if (p < end && *p == '.') {
+        const char *point = p++;
+        p = parse_digits(p, end, &w);
+        decimals = p - point - 1;
+        digits += decimals;
+    }
+    if (digits == 0)
+        return parse_word(first, end, minus, value);
+    if (digits <= EXACT_DIGITS && (p == end || (*p | 32) != 'e'))
+        *value = (double)w / power_of_10[decimals];
+    else
+        p = parse_slowly(first, p, end, w, digits, decimals, value);
+    if (minus)
+        *value = -*value;
     return p;
 }
 

@@ -13,7 +13,7 @@ struct vertex {
 
 struct open_line {
     int64_t first, last;          /* vertices, or NOTHING */
-    size_t n;                     /* number of vertices */
+    size_t n;                     /* number of vertices; of a free line 0 */
     struct hm_joint *begin, *end; /* where pieces may come; NULL once sealed */
     int64_t next_free;
 };
@@ -120,6 +120,7 @@ static enum hm_err finish(struct hm_chain *c, int64_t line, bool closed, struct 
         c->free_vertex = l->first;
     }
     struct hm_line out = {.xyz = c->xyz, .n = l->n, .closed = closed};
+    l->n = 0;
     l->next_free = c->free_line;
     c->free_line = line;
     return c->take(c->arg, &out, d);
@@ -139,6 +140,7 @@ static void join(struct hm_chain *c, int64_t a, int64_t b)
     to->end = from->end;
     if (to->end)
         to->end->ending = a;
+    from->n = 0;
     from->next_free = c->free_line;
     c->free_line = b;
 }
@@ -243,5 +245,34 @@ enum hm_err hm_chain_seal(struct hm_chain *c, struct hm_joint *joint, struct hm_
         if (!c->line[beginning].end)
             err = finish(c, beginning, false, d);
     }
+    return err;
+}
+
+/* Boxes around the vertices from v on, each with the first vertex of the next. */
+static enum hm_err add_boxes(const struct hm_chain *c, int64_t v, struct hm_box **box, size_t *n,
+                             size_t *cap, struct hm_diag *d)
+{
+    enum { STRETCH = 4 };
+    while (v != NOTHING) {
+        if (!hm_grow(box, cap, *n + 1, sizeof **box))
+            return hm_fail_memory(d);
+        struct hm_box *b = &(*box)[(*n)++];
+        *b = hm_box_of(c->vertex[v].xyz, c->vertex[v].xyz);
+        for (int k = 0; k < STRETCH && v != NOTHING; k++) {
+            v = c->vertex[v].next;
+            if (v != NOTHING)
+                hm_box_add(b, c->vertex[v].xyz);
+        }
+    }
+    return HM_OK;
+}
+
+enum hm_err hm_chain_open(const struct hm_chain *c, struct hm_box **box, size_t *n, size_t *cap,
+                          struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (size_t k = 0; k < c->nlines && !err; k++)
+        if (c->line[k].n > 0)
+            err = add_boxes(c, c->line[k].first, box, n, cap, d);
     return err;
 }

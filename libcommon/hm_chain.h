@@ -7,6 +7,7 @@
 #ifndef HM_CHAIN_H
 #define HM_CHAIN_H
 
+#include "hm_boxtree.h"
 #include "hm_line.h"
 
 /* The caller keeps the joints, at fixed addresses, cleared by hm_joint_clear. */
@@ -40,6 +41,11 @@ enum hm_err hm_chain_add(struct hm_chain *c, struct hm_joint *from, struct hm_jo
  * there; a line that runs against it is turned round. For lines without a sense of direction. */
 enum hm_err hm_chain_join(struct hm_chain *c, struct hm_joint *a, struct hm_joint *b,
                           const double *at_a, const double *at_b, struct hm_diag *d);
+
+/* Append boxes around the open lines, as far as they have come, one for every few vertices, to *box
+ * (malloc'd, *n of *cap). */
+enum hm_err hm_chain_open(const struct hm_chain *c, struct hm_box **box, size_t *n, size_t *cap,
+                          struct hm_diag *d);
 
 /* No more pieces come to this joint; it is cleared. */
 enum hm_err hm_chain_seal(struct hm_chain *c, struct hm_joint *joint, struct hm_diag *d);

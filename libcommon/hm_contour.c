@@ -236,3 +236,9 @@ enum hm_err hm_contour_end(struct hm_contour *c, struct hm_diag *d)
         err = hm_chain_seal(c->chain, &c->across[1][i], d);
     return err;
 }
+
+enum hm_err hm_contour_open(const struct hm_contour *c, struct hm_box **box, size_t *n, size_t *cap,
+                            struct hm_diag *d)
+{
+    return hm_chain_open(c->chain, box, n, cap, d);
+}

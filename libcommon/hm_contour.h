@@ -41,6 +41,10 @@ void hm_contour_free(struct hm_contour *c);
 enum hm_err hm_contour_row(struct hm_contour *c, const double *slope, const double *z,
                            struct hm_diag *d);
 
+/* Append boxes around the open lines: hm_chain_open. */
+enum hm_err hm_contour_open(const struct hm_contour *c, struct hm_box **box, size_t *n, size_t *cap,
+                            struct hm_diag *d);
+
 /* Behind the last row: hand out the lines that are still open. */
 enum hm_err hm_contour_end(struct hm_contour *c, struct hm_diag *d);
 

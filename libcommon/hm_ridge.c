@@ -285,3 +285,12 @@ enum hm_err hm_ridge_end(struct hm_ridge *r, struct hm_diag *d)
             err = hm_chain_seal(r->joints[kind].chain, &r->joints[kind].across[0][i], d);
     return err;
 }
+
+enum hm_err hm_ridge_open(const struct hm_ridge *r, struct hm_box **box, size_t *n, size_t *cap,
+                          struct hm_diag *d)
+{
+    enum hm_err err = HM_OK;
+    for (int kind = 0; kind < HM_RIDGE_KINDS && !err; kind++)
+        err = hm_chain_open(r->joints[kind].chain, box, n, cap, d);
+    return err;
+}

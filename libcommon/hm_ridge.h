@@ -32,6 +32,12 @@ void hm_ridge_free(struct hm_ridge *r);
 /* Add the next row of heights. Lines end some four nodes before the border and before nodata. */
 enum hm_err hm_ridge_row(struct hm_ridge *r, const double *z, struct hm_diag *d);
 
+/* Append boxes around the open lines: hm_chain_open. They go on HM_RIDGE_LAG rows before the
+ * newest. */
+enum { HM_RIDGE_LAG = 5 };
+enum hm_err hm_ridge_open(const struct hm_ridge *r, struct hm_box **box, size_t *n, size_t *cap,
+                          struct hm_diag *d);
+
 /* Behind the last row: hand out the lines that are still open. */
 enum hm_err hm_ridge_end(struct hm_ridge *r, struct hm_diag *d);
 

@@ -77,6 +77,25 @@ slope -b bank.hm | breaklines -b -s 9 2>/dev/null >binary.hm
 breaklines -s 9 slope.hm 2>/dev/null | head -n 1 >/dev/null
 ok "binary lines are shorter" [ "$(wc -c <binary.hm)" -lt "$(wc -c <lines.hm)" ]
 
+# many lines: those that are settled go out before the end
+awk 'BEGIN { print "#hm 1 grid text"; print "#size 300 500"; print "#origin 0 0"; print "#step 2 2"
+    print "#fields x y z slope"; print "#units m m m degree"; print "#data"
+    for (j = 0; j < 500; j++) for (i = 0; i < 300; i++)
+        print 2 * i, 2 * j, i, 6 + 4 * sin(i / 3 + j / 11) * cos(j / 4) + (i * 7 + j * 13) % 5
+    print "#end" }' >large.hm
+breaklines -s 8 -l 0 -w 0 large.hm >raw.hm 2>/dev/null
+breaklines -s 8 -l 0 -w 0.4 large.hm >smooth.hm 2>/dev/null
+sizes() { awk '/^[>#]/ { if (n) print n, closed; n = 0; closed = $0 ~ /closed/; next } { n++ }' "$1" | sort; }
+sizes raw.hm >raw.sizes
+sizes smooth.hm >smooth.sizes
+true_that "with smoothing lines come in another order" "$(sed -n 's/^>.*length=//p' raw.hm | wc -l) > 5000 &&
+    $(grep -vc '^[#>]' raw.hm) > 80000 && $(paste raw.hm smooth.hm | awk '$1 ~ /^[0-9]/ && ($1 - $4) ^ 2 > 9' | wc -l) > 1000"
+same "but all of them, and each as long" raw.sizes smooth.sizes
+true_that "each within 0.4 m of where it was" "$(awk '/^[#>]/ { next } FNR == NR { c[int($1) " " int($2)] = c[int($1) " " int($2)] " " $1 " " $2; next }
+    { best = 9; for (i = -1; i < 2; i++) for (j = -1; j < 2; j++) { n = split(c[int($1) + i " " int($2) + j], v, " ")
+        for (k = 1; k < n; k += 2) { d = (v[k] - $1) ^ 2 + (v[k + 1] - $2) ^ 2; if (d < best) best = d } }
+      if (best > m) m = best } END { print m }' raw.hm smooth.hm) <= 0.4 ^ 2 + 1e-9"
+
 # curvature: toe and crest of the bank
 breaklines -m curvature bank.hm >curved.hm 2>/dev/null
 true_that "curvature: a bank has two lines" "$(count curved.hm) == 2"

@@ -6,6 +6,7 @@
 #include "hm_lineedit.h"
 #include "hm_num.h"
 #include "hm_polyline.h"
+#include "hm_release.h"
 #include "hm_ridge.h"
 #include "hm_simplify.h"
 #include "hm_slope.h"
@@ -18,6 +19,9 @@
 
 /* 89.99994 degrees: beyond it a percentage is a slip of the pen. */
 #define STEEPEST_PERCENT 1e8
+
+/* So many are held before it is worth while to see which lines are settled. */
+enum { MANY_VERTICES = 1 << 16 };
 
 /* Modes beyond those of hm_contour. */
 enum { CURVATURE = HM_CONTOUR_NODE + 1 };
@@ -84,10 +88,12 @@ struct tool {
     struct hm_cli *cli;
     struct limit *limit;
     size_t nlimits;
-    double least;         /* metres, in this grid */
-    double shortest;      /* the least of these */
-    double smooth;        /* metres, for all grids */
-    struct hm_lines held; /* lines to be simplified, when all are known */
+    struct hm_lattice lattice; /* of this grid */
+    double least, smooth;      /* metres, in this grid */
+    struct hm_lines held;      /* lines to be changed, once none can come near them */
+    size_t held_vertices;
+    size_t enough;       /* of them, to see which are settled */
+    size_t back, follow; /* vertices not smoothed, pieces not resampled */
     int64_t found, found_vertices, dropped, written, written_vertices;
     struct hm_lattice *traced; /* the lattices of the grids so far */
     size_t ntraced, traced_cap;
@@ -263,7 +269,76 @@ static enum hm_err take_line(void *arg, const struct hm_line *found, struct hm_d
         t->dropped++;
         return HM_OK;
     }
+    t->held_vertices += line.n;
     return changes_lines(t) ? hm_lines_append(&t->held, &line, d) : write_line(t, &line, d);
+}
+
+/* Smooth, simplify, resample, and let the lines out. */
+static void change_lines(struct tool *t, struct hm_lines *lines)
+{
+    struct hm_diag d = {0};
+    size_t back = 0, follow = 0;
+    if (t->smooth > 0)
+        hm_cli_check(t->cli, hm_uncross_smooth(lines, t->smooth, &back, &d), &d);
+    if (cmd.simplified)
+        hm_cli_check(t->cli, hm_simplify(lines, cmd.simplify, &d), &d);
+    if (cmd.resampled)
+        hm_cli_check(t->cli, hm_uncross_resample(lines, cmd.resample, &follow, &d), &d);
+    for (size_t k = 0; k < lines->n; k++)
+        if (hm_polyline_length(&lines->line[k]) < t->least)
+            t->dropped++; /* now that it is smooth */
+        else
+            hm_cli_check(t->cli, write_line(t, &lines->line[k], &d), &d);
+    t->back += back;
+    t->follow += follow;
+    hm_lines_free(lines);
+}
+
+/* How far changes of a line reach: vertices move, and chords cut corners. */
+static double reach(const struct tool *t)
+{
+    return t->smooth + cmd.simplify + cmd.resample;
+}
+
+/* What may still come: the rows from a little before `row` on, and what the open lines have. */
+static enum hm_err find_open(const struct tool *t, int64_t row, struct hm_box **box, size_t *n,
+                             struct hm_diag *d)
+{
+    const struct hm_lattice *l = &t->lattice;
+    size_t cap = 0;
+    if (!hm_grow(box, &cap, *n + 1, sizeof **box))
+        return hm_fail_memory(d);
+    double y = l->y0 + (double)(row - HM_RIDGE_LAG) * l->dy;
+    (*box)[(*n)++] = hm_box_of(
+        (const double[]){l->x0, y},
+        (const double[]){l->x0 + (double)(l->nx - 1) * l->dx, l->y0 + (double)(l->ny - 1) * l->dy});
+    enum hm_err err = HM_OK;
+    for (size_t k = 0; k < t->nlimits && !err; k++)
+        err = t->limit[k].ridge ? hm_ridge_open(t->limit[k].ridge, box, n, &cap, d)
+                                : hm_contour_open(t->limit[k].contour, box, n, &cap, d);
+    return err;
+}
+
+/* Let the lines out that are settled once `row` has been traced, when many are held. */
+static void release_lines(struct tool *t, int64_t row)
+{
+    struct hm_diag d = {0};
+    struct hm_lines done = {0};
+    struct hm_box *open = NULL;
+    size_t n = 0;
+    if (!changes_lines(t) || t->held_vertices < t->enough)
+        return;
+    enum hm_err err = find_open(t, row, &open, &n, &d);
+    if (!err)
+        err = hm_release(&t->held, &done, open, n, reach(t), &d);
+    hm_cli_check(t->cli, err, &d);
+    free(open);
+    fprintf(stderr, "row %ld open %zu done %zu held %zu\n", (long)row, n, done.n, t->held.n);
+    change_lines(t, &done);
+    t->held_vertices = 0;
+    for (size_t k = 0; k < t->held.n; k++)
+        t->held_vertices += t->held.line[k].n;
+    t->enough = 2 * t->held_vertices + MANY_VERTICES;
 }
 
 /* --- one grid --- */
@@ -322,6 +397,7 @@ static void trace_curvature(struct tool *t, struct source *heights, int64_t ny)
         take_band(heights, heights->band, z);
         for (size_t k = 0; k < t->nlimits; k++)
             hm_cli_check(t->cli, hm_ridge_row(t->limit[k].ridge, z, &d), &d);
+        release_lines(t, j);
         hm_cli_progress(t->cli, "breaklines", (double)j / (double)ny);
     }
     free(z);
@@ -341,6 +417,7 @@ static void trace_slope(struct tool *t, struct source *heights, struct source *s
         take_band(slopes->reader == heights->reader ? heights : slopes, slopes->band, slope + at);
         for (size_t k = 0; k < t->nlimits; k++)
             hm_cli_check(cli, hm_contour_row(t->limit[k].contour, slope + at, z + at, &d), &d);
+        release_lines(t, j);
         hm_cli_progress(cli, "breaklines", (double)j / (double)ny);
     }
     free(slope);
@@ -366,13 +443,11 @@ static void do_slope(struct tool *t, const struct hm_header *h, struct source *h
 static void use_lattice(struct tool *t, const struct hm_lattice *l)
 {
     double dx = fabs(l->dx), dy = fabs(l->dy);
+    t->lattice = *l;
     t->least = cmd.least_given ? cmd.least : 20 * fmax(dx, dy);
-    bool first = t->ntraced == 1;
-    t->shortest = first ? t->least : fmin(t->shortest, t->least);
-    if (!cmd.smooth_given && cmd.mode != HM_CONTOUR_NODE)
-        t->smooth = fmin(first ? INFINITY : t->smooth, fmin(dx, dy) / 2);
-    else
-        t->smooth = cmd.smooth;
+    t->smooth = cmd.smooth_given || cmd.mode == HM_CONTOUR_NODE ? cmd.smooth : fmin(dx, dy) / 2;
+    t->held_vertices = 0;
+    t->enough = MANY_VERTICES;
 }
 
 static void do_grid(struct tool *t, const struct hm_header *h)
@@ -389,6 +464,7 @@ static void do_grid(struct tool *t, const struct hm_header *h)
         do_slope(t, h, &heights);
     }
     close_limits(t);
+    change_lines(t, &t->held);
     free(heights.row);
 }
 
@@ -431,35 +507,14 @@ static void begin_output(struct hm_cli *cli)
     hm_header_free(&h);
 }
 
-/* Smooth, simplify, resample, and let the lines out. */
-static void write_held(struct tool *t)
-{
-    struct hm_diag d = {0};
-    size_t back = 0, follow = 0;
-    if (t->smooth > 0)
-        hm_cli_check(t->cli, hm_uncross_smooth(&t->held, t->smooth, &back, &d), &d);
-    if (cmd.simplified)
-        hm_cli_check(t->cli, hm_simplify(&t->held, cmd.simplify, &d), &d);
-    if (cmd.resampled)
-        hm_cli_check(t->cli, hm_uncross_resample(&t->held, cmd.resample, &follow, &d), &d);
-    for (size_t k = 0; k < t->held.n; k++)
-        if (hm_polyline_length(&t->held.line[k]) < t->shortest)
-            t->dropped++; /* now that it is smooth */
-        else
-            hm_cli_check(t->cli, write_line(t, &t->held.line[k], &d), &d);
-    hm_lines_free(&t->held);
-    if (back + follow > 0)
-        hm_cli_say(t->cli, "%s not smoothed, %s not resampled: lines would cross",
-                   hm_cli_counted((int64_t)back, "vertex").text,
-                   hm_cli_counted((int64_t)follow, "piece").text);
-}
-
 static void finish_output(struct tool *t)
 {
     struct hm_diag d = {0};
-    if (changes_lines(t))
-        write_held(t);
     hm_cli_check(t->cli, hm_writer_end(hm_cli_writer(t->cli), &d), &d);
+    if (t->back + t->follow > 0)
+        hm_cli_say(t->cli, "%s not smoothed, %s not resampled: lines would cross",
+                   hm_cli_counted((int64_t)t->back, "vertex").text,
+                   hm_cli_counted((int64_t)t->follow, "piece").text);
     hm_cli_say(t->cli, "%s found (%s), %lld dropped (shorter than %g m), %lld written (%s)",
                hm_cli_counted(t->found, "line").text,
                hm_cli_counted(t->found_vertices, "vertex").text, (long long)t->dropped, t->least,

@@ -4,6 +4,7 @@
 #include "hm_contour.h"
 #include "hm_lineedit.h"
 #include "hm_polyline.h"
+#include "hm_release.h"
 #include "hm_simplify.h"
 #include "hm_slope.h"
 #include "hm_uncross.h"
@@ -409,8 +410,47 @@ static void test_smooth(void)
     ok(smooth < rough && xyz[0] == 0 && xyz[117] == 39, "it shortens a zigzag, ends stay");
 }
 
+/* The numbers of the lines of a set, from their first heights, as digits. */
+static int digits_of(const struct hm_lines *lines)
+{
+    int digits = 0;
+    for (size_t k = 0; k < lines->n; k++)
+        digits = 10 * digits + (int)lines->line[k].xyz[2];
+    return digits;
+}
+
+/* Lines 1 to 6 run north, at x = 0, 3, 6, 20, 26, 40; 5 is long, 6 is a corner whose box covers all
+ * others. Something open is at x = -2. */
+static void test_release(void)
+{
+    double at[] = {0, 3, 6, 20, 26};
+    struct hm_lines held = {0}, done = {0};
+    for (int k = 0; k < 5; k++) {
+        double y = k == 4 ? 90 : 9, xyz[] = {at[k], 0, k + 1, at[k], y, k + 1};
+        hm_lines_append(&held, &(struct hm_line){.xyz = xyz, .n = 2}, NULL);
+    }
+    double corner[3 * 100];
+    for (int k = 0; k < 100; k++) {
+        corner[3 * k] = k < 50 ? k - 10 : 40;
+        corner[3 * k + 1] = k < 50 ? -20 : k - 70;
+        corner[3 * k + 2] = 6;
+    }
+    hm_lines_append(&held, &(struct hm_line){.xyz = corner, .n = 100}, NULL);
+    const struct hm_box open[] = {{{-2, 0}, {-2, 9}}, {{-99, 80}, {99, 99}}};
+    hm_release(&held, &done, open, 2, 1.6, NULL);
+    ok(digits_of(&held) == 1235 && digits_of(&done) == 46,
+       "near something open, near a line that is, in the rows to come: not settled");
+    hm_release(&held, &done, open, 1, 1.2, NULL);
+    ok(digits_of(&held) == 1 && digits_of(&done) == 46235, "that depends on how far they reach");
+    hm_release(&held, &done, NULL, 0, 1e9, NULL);
+    ok(held.n == 0 && digits_of(&done) == 462351, "nothing open: all are settled");
+    hm_lines_free(&held);
+    hm_lines_free(&done);
+}
+
 int main(void)
 {
+    test_release();
     test_bank();
     test_peak();
     test_saddle();

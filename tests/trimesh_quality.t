@@ -140,7 +140,7 @@ holds "it is no worse than they are" needle.hm 'angle > 1.83 && n < 1500'
 # --- beside a regular mesh ---
 
 hmsurvey -n 20000 . >/dev/null
-bsgrid --quiet -d 2 survey.xyz | slope | breaklines --quiet -s 8 -l 30 -r 6 >breaklines.hm
+bsgrid --quiet -d 2 survey.xyz | slope | breaklines --quiet -w 0 -s 8 -l 30 -r 6 >breaklines.hm
 bsmesh --quiet -s main -c 15/6 -e 12/5 lines.txt breaklines.hm survey.xyz >main.hm
 for j in 1 2; do
     trimesh --quiet -m quality -q 25 -a 22 -j $j survey.xyz breaklines.hm lines.txt main.hm >flood$j.hm

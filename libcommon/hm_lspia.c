@@ -27,10 +27,12 @@ static size_t band_end(const struct lspia *l, size_t band)
     return (band + 1) * BAND < l->s->m ? (band + 1) * BAND : l->s->m;
 }
 
-static struct sample sample_at(const struct hm_lattice *lattice, const double *xyz)
+/* Whole numbers are taken off last, which is exact: so windows of a lattice place a sample alike.
+ */
+static struct sample sample_at(const struct hm_anchor *a, const double *xyz)
 {
-    return (struct sample){(xyz[0] - lattice->x0) / lattice->dx,
-                           (xyz[1] - lattice->y0) / lattice->dy, xyz[2], 0};
+    return (struct sample){xyz[0] / a->spacing - (double)a->i0, xyz[1] / a->spacing - (double)a->j0,
+                           xyz[2], 0};
 }
 
 /* Row under a sample, or m when it is outside of the net. */
@@ -56,13 +58,12 @@ static enum hm_err sort_samples(struct lspia *l, const struct hm_anchor *a, cons
                                 size_t n, struct hm_diag *d)
 {
     size_t m = l->s->m;
-    const struct hm_lattice lattice = hm_anchor_lattice(a);
     l->sample = hm_alloc(n, sizeof *l->sample);
     l->start = hm_alloc0(m + 2, sizeof *l->start);
     if (!l->sample || !l->start)
         return hm_fail_memory(d);
     for (size_t k = 0; k < n; k++) {
-        struct sample p = sample_at(&lattice, xyz + 3 * k);
+        struct sample p = sample_at(a, xyz + 3 * k);
         l->start[row_of(l->s, &p) + 1]++;
     }
     for (size_t j = 0; j < m; j++)
@@ -72,7 +73,7 @@ static enum hm_err sort_samples(struct lspia *l, const struct hm_anchor *a, cons
         return hm_fail_memory(d);
     memcpy(next, l->start, (m + 1) * sizeof *next);
     for (size_t k = 0; k < n; k++) {
-        struct sample p = sample_at(&lattice, xyz + 3 * k);
+        struct sample p = sample_at(a, xyz + 3 * k);
         size_t row = row_of(l->s, &p);
         if (row < m)
             l->sample[next[row]++] = p;
@@ -234,7 +235,7 @@ enum { CHUNK = 1 << 14 };
 
 struct judge {
     const struct hm_bsurf *s;
-    struct hm_lattice lattice;
+    const struct hm_anchor *anchor;
     const double *xyz;
     size_t n;
     double *rest;
@@ -245,7 +246,7 @@ static void judge_chunk(void *arg, size_t chunk)
     const struct judge *g = arg;
     size_t end = (chunk + 1) * CHUNK < g->n ? (chunk + 1) * CHUNK : g->n;
     for (size_t k = chunk * CHUNK; k < end; k++) {
-        struct sample p = sample_at(&g->lattice, g->xyz + 3 * k);
+        struct sample p = sample_at(g->anchor, g->xyz + 3 * k);
         g->rest[k] = row_of(g->s, &p) < g->s->m ? residual(g->s, &p) : NAN;
     }
 }
@@ -253,6 +254,6 @@ static void judge_chunk(void *arg, size_t chunk)
 void hm_lspia_residuals(const struct hm_bsurf *s, const struct hm_anchor *a, const double *xyz,
                         size_t n, int threads, double *rest)
 {
-    struct judge g = {s, hm_anchor_lattice(a), xyz, n, rest};
+    struct judge g = {s, a, xyz, n, rest};
     hm_thread_for(threads, (n + CHUNK - 1) / CHUNK, judge_chunk, &g);
 }

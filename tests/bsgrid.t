@@ -80,6 +80,12 @@ for gap in 3 9; do
         awk '!/^#/ && $1 <= 1030 && $2 <= 2030' >cut
     same "windows agree to the last bit, gap $gap" window cut
 done
+for options in "-n 4 -f points" "-d 0.7 -n 4 -k 3 -f points" "-d 0.7 -g 3"; do
+    bsgrid -m mean $options -R 1012/1038/2012/2048 wavy.xyz 2>/dev/null | awk '!/^#/ { print $3 }' >window
+    bsgrid -m mean $options -R 1010/1050/2010/2050 wavy.xyz 2>/dev/null |
+        awk '!/^#/ && $1 >= 1012 && $1 <= 1038 && $2 >= 2012 && $2 <= 2048 { print $3 }' >cut.heights
+    same "so do the heights with $options" window cut.heights
+done
 true_that "of which a part is empty, a part filled" "$(grep -c nan cut) < 200 && $(grep -c nan cut) > 0 && $(bsgrid -m mean -g 3 -R \
     1010/1030/2010/2030 sparse.xyz 2>/dev/null | grep -c nan) > 20"
 

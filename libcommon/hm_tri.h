@@ -76,8 +76,8 @@ void hm_tri_free(struct hm_tri *t);
 /* --- vertices --- */
 
 int32_t hm_tri_vertices(const struct hm_tri *t); /* vertex numbers in use lie below; see is_used */
-bool hm_tri_is_used(const struct hm_tri *t, int32_t v); /* false once removed */
-const double *hm_tri_xy(const struct hm_tri *t, int32_t v);
+bool hm_tri_is_used(const struct hm_tri *t, int32_t v);        /* false once removed */
+const double *hm_tri_xy(const struct hm_tri *t, int32_t v);    /* until the next edit */
 int32_t hm_tri_of_input(const struct hm_tri *t, size_t input); /* vertex of an input point */
 int64_t hm_tri_input(const struct hm_tri *t, int32_t v);       /* lowest one at v; -1: added */
 size_t hm_tri_duplicates(const struct hm_tri *t);              /* input points merged into others */

@@ -543,6 +543,17 @@ static enum hm_err close_outline(struct refine *r)
     return err;
 }
 
+/* Squares of squares of lengths must be neither zero nor infinite. */
+static enum hm_err check_extent(const struct hm_tri *t, struct hm_diag *d)
+{
+    double extent = 0;
+    for (int32_t i = 2; i < 2 * t->vertices; i++)
+        extent = fmax(extent, fabs(t->xy[i] - t->xy[i % 2]));
+    if (extent > 1e-50 && extent < 1e50)
+        return HM_OK;
+    return hm_fail(d, HM_EGEOM, "points that extend over %g cannot be refined", extent);
+}
+
 static bool is_full(struct refine *r)
 {
     r->done->capped = r->q->most > 0 && r->added >= r->q->most;
@@ -622,7 +633,9 @@ static bool take_work(struct refine *r, struct hm_tri_work *work)
 static enum hm_err refine(struct refine *r)
 {
     struct hm_tri_work work;
-    enum hm_err err = close_outline(r);
+    enum hm_err err = check_extent(r->t, r->d);
+    if (!err)
+        err = close_outline(r);
     if (!err && r->q->growth > 0)
         err = hm_tri_grade_start(&r->grade, r->t, r->q->growth, r->q->outside, r->d);
     for (int32_t e = 0; !err && e < 3 * r->t->triangles; e++)

@@ -21,7 +21,8 @@ struct hm_tri_sharp {
 
 /* What is wanted. Zero is "no bound" everywhere. */
 struct hm_tri_quality {
-    double min_angle; /* degrees; it surely ends up to 20, in practice up to 33. At most 40 */
+    double min_angle; /* degrees; it surely ends up to 20, in practice up to 33; at most 40, for
+                       * which set `most` */
     double max_area;
     double max_edge; /* the longest edge of a triangle */
 
@@ -56,9 +57,11 @@ struct hm_tri_refined {
     bool capped;                 /* `most` was reached */
 };
 
-/* Refine all solid triangles whose region is not q->outside (ghosts become it). Vertices are only
- * added; those of before stay, as do all constraints, split into pieces. done may be NULL. HM_EARG
- * for bounds out of range, HM_ENOMEM. */
+/* Refine all solid triangles whose region is not q->outside, which constraints bound (ghosts become
+ * outside). Vertices are only added; those of before stay, as do all constraints, split into
+ * pieces. done may be NULL. HM_EARG for bounds out of range; HM_EGEOM when the points extend over
+ * less than 1e-50 or more than 1e50, whose areas and angles doubles do not hold; HM_ENOMEM leaves a
+ * valid triangulation that may not be Delaunay. */
 enum hm_err hm_tri_refine(struct hm_tri *t, const struct hm_tri_quality *q,
                           struct hm_tri_refined *done, struct hm_diag *d);
 

@@ -349,6 +349,17 @@ static void refusals(void)
     q = (struct hm_tri_quality){.max_area = 1, .hull_marks = 0};
     ok(hm_tri_refine(t, &q, NULL, NULL) == HM_EARG, "the hull needs marks");
     hm_tri_free(t);
+    q = (struct hm_tri_quality){.min_angle = 20, .hull_marks = 8};
+    static const double scale[] = {1e-60, 1e-48, 1e48, 1e60};
+    for (int i = 0; i < 4; i++) {
+        double s = scale[i], xy[] = {0, 0, 10 * s, 0, 10 * s, s, 0, s};
+        struct hm_tri_refined done;
+        bool built = !hm_tri_build(&t, xy, 4, 2, 1, NULL), held = i == 1 || i == 2;
+        enum hm_err err = built ? hm_tri_refine(t, &q, &done, NULL) : HM_ENOMEM;
+        ok(err == (held ? HM_OK : HM_EGEOM) && (!held || done.smallest >= 20),
+           "a rectangle %g long is %s", 10 * s, held ? "refined" : "refused");
+        hm_tri_free(t);
+    }
 }
 
 int main(void)

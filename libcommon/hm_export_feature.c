@@ -88,9 +88,10 @@ static void read_attrs(struct writing *w, const struct hm_line *line)
 static void put_string(struct hm_sink *s, const char *text)
 {
     hm_sink_text(s, "\"");
-    for (; *text; text++) {
+    while (*text) {
         char escape[HM_JSON_ESCAPE];
-        hm_sink_bytes(s, escape, hm_json_escape(escape, *text));
+        size_t n = hm_json_escape(escape, &text);
+        hm_sink_bytes(s, escape, n);
     }
     hm_sink_text(s, "\"");
 }

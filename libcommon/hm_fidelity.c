@@ -122,13 +122,21 @@ static void visit(struct course *c, const double *p, const double *along, double
 
 /* --- lines --- */
 
-static void visit_piece(struct course *c, const double *a, const double *b)
+/* Stations on one piece: beyond, a vertex is far from where it was meant, as 0 0 to 1e12 0. */
+static const double most_stations = 1e7;
+
+static enum hm_err visit_piece(struct course *c, const double *a, const double *b,
+                               struct hm_diag *d)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy);
     if (!(length > 0))
-        return;
+        return HM_OK;
     const double along[2] = {dx / length, dy / length};
     double metres = length * c->want->metres, n = ceil(metres / c->want->tolerance);
+    if (!(n <= most_stations))
+        return hm_fail_at(d, HM_EGEOM, a[0], a[1],
+                          "a line runs %.3g m straight, too far for stations every %g m", metres,
+                          c->want->tolerance);
     visit(c, a, along, 0);
     for (double k = 0; k < n; k++) {
         double t = (k + 0.5) / n;
@@ -136,6 +144,7 @@ static void visit_piece(struct course *c, const double *a, const double *b)
         visit(c, p, along, metres / n);
     }
     visit(c, b, along, 0);
+    return HM_OK;
 }
 
 /* --- triangles on a line --- */
@@ -210,7 +219,9 @@ static enum hm_err take_line(struct hm_fidelity *f, size_t *cap, struct course *
     name_line(c->line, line, f->n);
     for (size_t k = 0; k < hm_polyline_pieces(line); k++) {
         const double *a = hm_polyline_from(line, k), *b = hm_polyline_to(line, k);
-        visit_piece(c, a, b);
+        enum hm_err err = visit_piece(c, a, b, d);
+        if (err)
+            return err;
         mark_nodes(c, a, b, (int32_t)f->n);
     }
     close_gap(c);

@@ -62,11 +62,13 @@ bool hm_import_is_triangle(const char *s, const char *end)
         return false;
     bool nodes = n == 4 && head[1] == 2 && (head[3] == 0 || head[3] == 1);
     bool elems = n == 3 && (head[1] == 3 || head[1] == 6);
+    if (!nodes && !elems)
+        return false;
     int columns = nodes ? 3 + (int)head[2] + (int)head[3] : 1 + (int)head[1] + (int)head[2];
     n = look_line(&s, end, row, HM_MAX_FIELDS);
     if (nodes && head[0] == 0)
         return n == 1 || n == 2;
-    if (!(nodes || elems) || n != columns || (row[0] != 0 && row[0] != 1))
+    if (n != columns || (row[0] != 0 && row[0] != 1))
         return false;
     return head[0] == 1 || (look_line(&s, end, next, 2) > 0 && next[0] == row[0] + 1);
 }

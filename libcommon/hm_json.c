@@ -12,23 +12,44 @@ static void put(struct hm_json *j, const char *bytes, size_t n)
         j->err = hm_writer_bytes(j->w, bytes, n, &j->d);
 }
 
-size_t hm_json_escape(char out[HM_JSON_ESCAPE], char c)
+/* Bytes of the character of UTF-8 at s (Unicode, table 3-7); 0 when there is none. */
+static size_t utf8_length(const unsigned char *s)
 {
-    size_t n = 0;
-    if ((unsigned char)c < 0x20 || c == '<')
-        return (size_t)snprintf(out, HM_JSON_ESCAPE, "\\u%04x", (unsigned)c);
-    if (c == '"' || c == '\\')
-        out[n++] = '\\';
-    out[n++] = c;
+    size_t n = s[0] < 0x80 ? 1 : s[0] < 0xc2 ? 0 : s[0] < 0xe0 ? 2 : s[0] < 0xf0 ? 3 : 4;
+    int least = s[0] == 0xe0 ? 0xa0 : s[0] == 0xf0 ? 0x90 : 0x80;
+    int most = s[0] == 0xed ? 0x9f : s[0] == 0xf4 ? 0x8f : 0xbf;
+    if (s[0] > 0xf4 || (n > 1 && (s[1] < least || s[1] > most)))
+        return 0;
+    for (size_t k = 2; k < n; k++)
+        if ((s[k] & 0xc0) != 0x80)
+            return 0;
     return n;
+}
+
+size_t hm_json_escape(char out[HM_JSON_ESCAPE], const char **text)
+{
+    const unsigned char *s = (const unsigned char *)*text;
+    size_t n = utf8_length(s);
+    *text += n > 0 ? n : 1;
+    if (n == 0) { /* Latin-1 is 0x80 to 0xff here */
+        out[0] = (char)(0xc0 | s[0] >> 6);
+        out[1] = (char)(0x80 | (s[0] & 0x3f));
+        return 2;
+    }
+    if (s[0] < 0x20 || s[0] == '<')
+        return (size_t)snprintf(out, HM_JSON_ESCAPE, "\\u%04x", (unsigned)s[0]);
+    size_t escaped = s[0] == '"' || s[0] == '\\';
+    out[0] = '\\';
+    memcpy(out + escaped, s, n);
+    return escaped + n;
 }
 
 static void put_string(struct hm_json *j, const char *text)
 {
     put(j, "\"", 1);
-    for (; *text; text++) {
+    while (*text) {
         char escape[HM_JSON_ESCAPE];
-        put(j, escape, hm_json_escape(escape, *text));
+        put(j, escape, hm_json_escape(escape, &text));
     }
     put(j, "\"", 1);
 }

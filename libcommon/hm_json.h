@@ -30,8 +30,10 @@ void hm_json_integer(struct hm_json *j, const char *name, int64_t v);
 void hm_json_bool(struct hm_json *j, const char *name, bool v);
 void hm_json_text(struct hm_json *j, const char *name, const char *text); /* NULL: null */
 
-/* What stands for a character in a string, quotes not included; how many bytes. */
+/* What stands for the character at *text in a string, quotes not included; how many bytes. *text
+ * goes behind it. JSON is UTF-8 (RFC 8259): a byte that is none, as in names from a GIS in Latin-1,
+ * is taken for Latin-1. */
 enum { HM_JSON_ESCAPE = 8 };
-size_t hm_json_escape(char out[HM_JSON_ESCAPE], char c);
+size_t hm_json_escape(char out[HM_JSON_ESCAPE], const char **text);
 
 #endif

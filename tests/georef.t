@@ -336,6 +336,10 @@ must_fail "a centre beyond the pole" 2 "no longitude and latitude" georef -t tm 
 must_fail "no MGRS" 2 "mgrs:2: " sh -c 'printf "32UNV1343802438 1\n99XYZ 2\n" >mgrs; georef -m mgrs'
 must_fail "a word for a height" 2 "mgrs:1: expected a number" sh -c 'printf "32UNV13 high\n" >mgrs; georef -m mgrs'
 : >empty
+for from in m us-ft; do
+    echo 9 48 1e308 >high.xyz
+    must_fail "a height that no double holds, $from" 2 "beyond all doubles at" georef -z 32 -f $from -u ft high.xyz
+done
 must_fail "an empty file" 2 "empty" georef empty
 must_fail "an empty file of references" 2 "empty" georef -m empty
 head -n 6 utm.hm >cut.hm

@@ -401,4 +401,15 @@ for f in geojson wkt poly node; do
     report $? "$f cut off: an error"
     sed 's/^/# /' bad
 done
+
+# --- names in Latin-1, as older shape files have them ---
+printf '> name=Fl\374\337chen river="Gro\303\237e Laber"\n0 0 0\n10 10 5\n' >latin.txt
+printf '> name=Fl\303\274\303\237chen river="Gro\303\237e Laber"\n0 0 0\n10 10 5\n' >utf8.txt
+hmconv -t geojson latin.txt >latin.geojson
+hmconv -t geojson utf8.txt >utf8.geojson
+same "GeoJSON is UTF-8" latin.geojson utf8.geojson
+
+# --- a table whose first line is no header of Triangle's ---
+printf '38 2147483647 0\n1 2 3\n' >table.xyz
+ok "a table with a coordinate of 2147483647" sh -c 'hmconv table.xyz | grep -qx "38 2147483647 0"'
 done_testing

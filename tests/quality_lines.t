@@ -150,4 +150,12 @@ near "awk: mean distance" "$(line wave lateral_mean)" "$lateral" 1e-9
 near "awk: mean height" "$(line wave vertical_mean)" "$rise" 1e-9
 near "awk: mean size of it" "$(line wave vertical_mean_size)" "$size" 1e-9
 
+# --- a vertex typed wrong, names of another time ---
+printf '> name=typo\n0 50 3.5\n1e15 50 3.5\n' >typo.txt
+must_fail "a line of a million million kilometres" 2 "1e\+15 m straight.* at 0 50" timeout 20 quality lattice.hm point.xyz typo.txt
+must_fail "stations without end" 2 "every 1e-09 m" timeout 20 quality --follow 1e-9 lattice.hm point.xyz lines.txt
+printf '> name=Fl\303\274\337chen\n0 50 3.5\n100 50 13.5\n' >latin.txt
+quality -J lattice.hm point.xyz latin.txt >report.json
+ok "JSON is UTF-8, a name in Latin-1 as well" grep -q "\"$(printf 'Fl\303\274\303\237chen')\"" report.json
+
 done_testing

@@ -58,6 +58,17 @@ static enum hm_err lift(const struct plan *p, const struct hm_geod *inverse, dou
     return err;
 }
 
+/* Streams hold no infinite numbers: 1e308 m are none in feet. */
+static enum hm_err check_finite(const double *rows, size_t n, size_t stride, struct hm_diag *d)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double *row = rows + i * stride;
+        if (!isfinite(row[0]) || !isfinite(row[1]) || isinf(row[2]))
+            return hm_fail_at(d, HM_EGEOM, row[0], row[1], "a number grows beyond all doubles");
+    }
+    return HM_OK;
+}
+
 static enum hm_err carry_rows(const struct plan *p, double *rows, size_t n, size_t stride,
                               struct hm_diag *d)
 {
@@ -71,7 +82,7 @@ static enum hm_err carry_rows(const struct plan *p, double *rows, size_t n, size
     if (!err && p->to && !stays)
         err = hm_geod_forward(p->to, rows, n, stride, d);
     from_metres(p, rows, n, stride);
-    return err;
+    return err ? err : check_finite(rows, n, stride, d);
 }
 
 static void carry_chunk(void *arg, size_t chunk)

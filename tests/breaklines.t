@@ -84,7 +84,8 @@ awk 'BEGIN { print "#hm 1 grid text"; print "#size 300 500"; print "#origin 0 0"
         print 2 * i, 2 * j, i, 6 + 4 * sin(i / 3 + j / 11) * cos(j / 4) + (i * 7 + j * 13) % 5
     print "#end" }' >large.hm
 breaklines -s 8 -l 0 -w 0 large.hm >raw.hm 2>/dev/null
-breaklines -s 8 -l 0 -w 0.4 large.hm >smooth.hm 2>/dev/null
+breaklines --quiet -s 8 -l 0 -w 0.4 large.hm >smooth.hm 2>said
+ok "nothing but errors is said of them when quiet" [ ! -s said ]
 sizes() { awk '/^[>#]/ { if (n) print n, closed; n = 0; closed = $0 ~ /closed/; next } { n++ }' "$1" | sort; }
 sizes raw.hm >raw.sizes
 sizes smooth.hm >smooth.sizes

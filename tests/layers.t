@@ -73,6 +73,11 @@ awk '
     $2 ~ /_private\.h$/ && of[$1] != of[$2] { print $1 " includes " $2 }' files.txt includes.txt >bad
 none "private headers are their module's own" bad
 
+# what a user is told goes through hm_cli, which knows --quiet and counts for --strict
+(cd "$TESTS/.." && grep -nwE 'stderr|perror' libcommon/*.c tools/*.c tools/*/*.c) |
+    grep -v '^libcommon/hm_cli' >bad
+none "nothing but hm_cli writes to standard error" bad
+
 # within a module too: tsort complains of circles
 awk '$1 ~ /\.h$/' includes.txt | tsort >/dev/null 2>bad
 none "no header includes itself by way of others" bad

@@ -333,7 +333,6 @@ static void release_lines(struct tool *t, int64_t row)
         err = hm_release(&t->held, &done, open, n, reach(t), &d);
     hm_cli_check(t->cli, err, &d);
     free(open);
-    fprintf(stderr, "row %ld open %zu done %zu held %zu\n", (long)row, n, done.n, t->held.n);
     change_lines(t, &done);
     t->held_vertices = 0;
     for (size_t k = 0; k < t->held.n; k++)

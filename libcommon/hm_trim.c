@@ -147,6 +147,14 @@ static void shorten(struct trim *t, int32_t e, int32_t b)
     v->gone = v->edge[0] == HM_TRI_NONE;
 }
 
+/* Edge f takes the place of e at its end. */
+static void relink(struct vertex *v, int32_t e, int32_t f)
+{
+    for (int i = 0; i < 2; i++)
+        if (v->edge[i] == e)
+            v->edge[i] = f;
+}
+
 /* Edge e goes from a to the plain vertex b, which may be left out or not. */
 static bool straighten(struct trim *t, int32_t e, int32_t a, int32_t b)
 {
@@ -156,6 +164,7 @@ static bool straighten(struct trim *t, int32_t e, int32_t a, int32_t b)
     if (find(t, a, b, other_end(next, b), blocks))
         return false;
     *(next->a == b ? &next->a : &next->b) = a;
+    relink(&t->vertex[a], e, f);
     t->gone[e] = t->vertex[b].gone = true;
     return true;
 }
@@ -173,6 +182,18 @@ static bool trim_end(struct trim *t, int32_t e, int32_t a, int32_t b)
         return false;
     shorten(t, e, b);
     return true;
+}
+
+/* Is b the tip of a spike, and left out? Its neighbours are near each other, and not near it. */
+static bool trim_spike(struct trim *t, int32_t b)
+{
+    const struct vertex *v = &t->vertex[b];
+    if (v->gone || !v->plain || v->edge[1] == HM_TRI_NONE)
+        return false;
+    const struct hm_domain_edge *edge = t->dom->edge;
+    int32_t a = other_end(&edge[v->edge[0]], b), c = other_end(&edge[v->edge[1]], b);
+    return distance(t, a, c) < t->least && distance(t, a, b) >= t->least &&
+           distance(t, b, c) >= t->least && straighten(t, v->edge[0], a, b);
 }
 
 static enum hm_err finish(struct trim *t, int64_t *n, struct hm_diag *d)
@@ -201,6 +222,8 @@ enum hm_err hm_trim_breaklines(struct hm_domain *dom, double least, int threads,
 {
     struct trim t = {.dom = dom, .least = least};
     enum hm_err err = start(&t, d);
+    for (size_t i = 0; !err && i < dom->nnodes; i++)
+        trim_spike(&t, (int32_t)i);
     for (bool changed = true; !err && changed;) {
         changed = false;
         for (size_t k = 0; k < dom->nedges; k++) {

@@ -12,6 +12,7 @@
 #include "hm_greedy.h"
 #include "hm_owners.h"
 #include "hm_paper.h"
+#include "hm_plane.h"
 #include "hm_ruppert.h"
 #include "hm_settle.h"
 #include "hm_trim.h"
@@ -354,8 +355,8 @@ static void assemble(struct hm_cli *cli, const struct hm_inputs *in,
                  &d);
     if (trimmed > 0)
         hm_cli_say(cli,
-                   "%s of breaklines left out: nearer than %g m to a crossing, or loose "
-                   "ends to an outline",
+                   "%s of breaklines left out: nearer than %g m to a crossing, loose ends to "
+                   "an outline, or tips of spikes",
                    hm_cli_counted(trimmed, "vertex").text, cmd.clearance);
 }
 
@@ -413,18 +414,25 @@ static bool refines(void)
            cmd.sizes || cmd.gradation > 0;
 }
 
+/* Degrees; 0: any. */
+static double least_angle(void)
+{
+    return cmd.method == QUALITY || (cmd.method == TERRAIN && cmd.angle_given) ? cmd.min_angle : 0;
+}
+
 /* Edges grow by the root of what areas may. */
 static void refine(struct hm_cli *cli, struct hm_domain *dom, const struct hm_sizes *sizes,
                    struct refined *left)
 {
     struct hm_diag d = {0};
-    double angle = cmd.method == QUALITY || cmd.angle_given ? cmd.min_angle : 0;
-    const struct hm_ruppert_options o = {.min_angle = angle,
+    const struct hm_ruppert_options o = {.min_angle = least_angle(),
                                          .growth = cmd.gradation > 0 ? sqrt(cmd.gradation) - 1 : 0,
                                          .sizes = sizes,
                                          .threads = hm_cli_threads(cli)};
-    const struct hm_even_options even = {
-        .ratio = cmd.gradation, .min_angle = angle, .sizes = sizes, .threads = hm_cli_threads(cli)};
+    const struct hm_even_options even = {.ratio = cmd.gradation,
+                                         .min_angle = least_angle(),
+                                         .sizes = sizes,
+                                         .threads = hm_cli_threads(cli)};
     hm_cli_stage(cli, "angles and sizes");
     hm_cli_check(cli, hm_ruppert_reach(dom, &o, &left->angles, &d), &d);
     left->pairs = (struct hm_even_left){0};
@@ -436,12 +444,6 @@ static void say_refined(struct hm_cli *cli, const struct refined *left)
 {
     const struct hm_tri_refined *r = &left->angles;
     const struct hm_even_left *pairs = &left->pairs;
-    if (r->small > 0)
-        hm_cli_say(cli,
-                   "%s under %g degrees left, at small angles of the lines or at "
-                   "regular meshes; the smallest, %.3g degrees, at %.10g %.10g",
-                   hm_cli_counted(r->small, "element").text, cmd.min_angle, r->smallest, r->x,
-                   r->y);
     if (r->large > 0 && (cmd.max_area > 0 || cmd.max_edge > 0 || cmd.sizes))
         hm_cli_say(cli, "%s over the maximum size left, at regular meshes",
                    hm_cli_counted(r->large, "element").text);
@@ -451,6 +453,33 @@ static void say_refined(struct hm_cli *cli, const struct refined *left)
                    "regular meshes; the largest ratio, %.3g, at %.10g %.10g",
                    hm_cli_counted(pairs->pairs, "element").text, cmd.gradation,
                    (long long)pairs->regular, pairs->worst, pairs->x, pairs->y);
+}
+
+/* Of the mesh as it is written: much gets better after refinement. */
+static void say_angles(struct hm_cli *cli, const struct hm_mesh *m)
+{
+    const double want = least_angle(), rounding = 1e-9;
+    const struct hm_node *apex = NULL;
+    double smallest = 180;
+    int64_t small = 0;
+    for (size_t k = 0; k < m->nelems; k++) {
+        double least = 180;
+        for (int i = 0; i < 3; i++) {
+            const int32_t *n = m->elem[k].node;
+            const struct hm_node *at = &m->node[n[i]];
+            double angle =
+                hm_plane_angle(&at->x, &m->node[n[(i + 1) % 3]].x, &m->node[n[(i + 2) % 3]].x);
+            least = fmin(least, angle);
+            apex = angle < smallest ? at : apex;
+            smallest = fmin(smallest, angle);
+        }
+        small += least < want - rounding;
+    }
+    if (small > 0)
+        hm_cli_say(cli,
+                   "%s under %g degrees left, at small angles of the lines or at "
+                   "regular meshes; the smallest, %.3g degrees, at %.10g %.10g",
+                   hm_cli_counted(small, "element").text, want, smallest, apex->x, apex->y);
 }
 
 /* New and moved nodes get the terrain's height; in spatial order, so that each is near the last. */
@@ -609,6 +638,7 @@ int main(int argc, char **argv)
     if (cmd.method == TERRAIN)
         say_error(cli, &ground, &dom);
     hm_cli_check(cli, hm_domain_mesh(&dom, &mesh, &d), &d);
+    say_angles(cli, &mesh);
     say_gaps(cli, ground.terrain, &mesh);
     hm_cli_check(cli, hm_mesh_write(&mesh, hm_cli_writer(cli), &d), &d);
     if (hm_cli_verbose(cli))

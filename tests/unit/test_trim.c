@@ -117,6 +117,25 @@ static void test_in_the_way(void)
     hm_domain_free(&dom);
 }
 
+static void test_spikes(void)
+{
+    const double spike[][2] = {{20, 20}, {20, 30}, {50, 31}, {20, 32}, {20, 42}};
+    const double blunt[][2] = {{20, 60}, {20, 70}, {50, 73}, {20, 76}, {20, 86}};
+    struct hm_domain dom;
+    start(&dom);
+    add_line(&dom, false, spike, 5);
+    add_line(&dom, false, blunt, 5);
+    ok(trim(&dom, 5) == 1, "the tip of a spike is left out");
+    ok(has_edge(&dom, 20, 30, 20, 32) && !has_edge(&dom, 50, 31, 20, 32), "between its sides");
+    ok(has_edge(&dom, 20, 70, 50, 73) && has_edge(&dom, 50, 73, 20, 76), "not of a wider one");
+    hm_domain_free(&dom);
+    start(&dom);
+    add_line(&dom, false, spike, 5);
+    add_line(&dom, false, (double[][2]){{19, 31}, {40, 31}}, 2);
+    ok(trim(&dom, 5) == 0, "nor where a line runs in it");
+    hm_domain_free(&dom);
+}
+
 /* --- a tangle: random lines across each other and the outline --- */
 
 static void add_tangle(struct hm_lines *lines)
@@ -208,6 +227,7 @@ int main(void)
     test_meeting();
     test_ends();
     test_in_the_way();
+    test_spikes();
     test_tangles();
     return done();
 }

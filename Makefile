@@ -71,7 +71,7 @@ help:
 #: make fuzz       fuzz targets (SECONDS=600 each, there are twelve; needs clang)
 #: make bench      all benchmarks; bench-NAME for one
 #: make casestudies: the paper's case studies with pictures and a table of goals, in ./casestudies
-#: make pictures the pictures of the README, from the demo (that of the 3D view needs Chromium)
+#: make pictures those of the classroom case, in build/classroom, and of the README (this needs Chromium)
 #: make lint       format, static checks, man pages
 #: make deps       install missing Debian packages (root, or sudo without a password)
 #: make install    DESTDIR= PREFIX=/usr/local PROGPREFIX=
@@ -140,8 +140,9 @@ demo: deps-quiet
 	$(Q)$(MAKE) $(JOBS) --no-print-directory all $(GEN)
 	$(Q)B=$(CURDIR)/$(B) POINTS='$(POINTS)' LINES='$(DEMO_LINES)' D='$(D)' tests/demo
 
-# The pictures of the README, from the demo.
+# A picture of every stage of the classroom case in hybridmesh(7), and those of the README, from the demo.
 pictures: demo
+	$(Q)PATH=$(CURDIR)/$(B)/bin:$$PATH tests/classroom/pictures $(B)/classroom
 	$(Q)tests/deps browser quiet
 	$(Q)$(B)/bin/hmdraw -s 1000 -l 16 -o man/hybrid.png demo/dem.hm demo/hybrid.hm
 	$(Q)$(B)/bin/hmdraw -3 -f z -o demo/view.html demo/hybrid.hm demo/breaklines.hm demo/residuals.hm
@@ -222,7 +223,7 @@ lint:
 	$(Q)$(MAKE) --no-print-directory B=build/lint CFLAGS='-O2 -Werror' all $(patsubst $(B)/%,build/lint/%,$(GEN) $(UNIT))
 	$(Q)mandoc -T lint -W warning $(wildcard man/*.[157])
 	$(Q)for f in tests/*.t tests/long/*.t tests/bench/*.sh tests/run tests/deps tests/demo tests/study/study.sh tests/study/junction \
-	    tests/study/danube .ci/run; do \
+	    tests/study/danube tests/classroom/stages tests/classroom/pictures .ci/run; do \
 	    [ ! -e $$f ] || bash -n $$f || exit 1; done
 
 compile_commands.json: FORCE

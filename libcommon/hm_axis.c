@@ -118,7 +118,7 @@ static enum hm_err read_axis(struct axis *a, double *along, struct hm_diag *d)
         err = hm_fail_at(d, HM_EARG, start[0], start[1],
                          "no distance of control points for an axis: give it by option or as "
                          "along=");
-    return err;
+    return hm_fail_place(d, err, start[0], start[1]);
 }
 
 static enum hm_err take_axis(const struct hm_breaklines *b, const struct hm_line *line,

@@ -56,6 +56,16 @@ enum hm_err hm_fail_memory(struct hm_diag *d)
     return hm_fail(d, HM_ENOMEM, "out of memory");
 }
 
+enum hm_err hm_fail_place(struct hm_diag *d, enum hm_err err, double x, double y)
+{
+    if (err && d && !d->has_place) {
+        d->has_place = true;
+        d->x = x;
+        d->y = y;
+    }
+    return err;
+}
+
 void *hm_alloc(size_t count, size_t size)
 {
     if (size && count > PTRDIFF_MAX / size)

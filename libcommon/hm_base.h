@@ -43,6 +43,8 @@ enum hm_err hm_fail_at(struct hm_diag *d, enum hm_err err, double x, double y, c
 enum hm_err hm_fail_line(struct hm_diag *d, enum hm_err err, const char *source, int64_t line,
                          const char *format, ...) __attribute__((format(printf, 5, 6)));
 enum hm_err hm_fail_memory(struct hm_diag *d);
+/* Give the error in d, if there is one, the place x, y, unless it has one already. Returns err. */
+enum hm_err hm_fail_place(struct hm_diag *d, enum hm_err err, double x, double y);
 
 /* malloc(count * size), or NULL when that overflows or memory is short. count 0 gives a block that
  * can be freed. hm_alloc0 clears it. */

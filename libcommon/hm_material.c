@@ -17,7 +17,7 @@ static enum hm_err take_ring(struct hm_material *m, const struct hm_line *line, 
         m->ring.n--;
         m->ring.closed = true;
     }
-    enum hm_err err = hm_attr_number(line->attrs, "region", 0, &region, d);
+    enum hm_err err = hm_fail_place(d, hm_attr_number(line->attrs, "region", 0, &region, d), x, y);
     if (!err && !(region >= 0 && region < INT32_MAX && region == floor(region)))
         err = hm_fail_at(d, HM_EFORMAT, x, y, "region=%g is not a material number (0, 1, 2 …)",
                          region);

@@ -195,12 +195,7 @@ static enum hm_err take_line(const struct hm_line *line, const struct hm_rough_s
     err = copy_side(&r->side[s], line, d);
     if (!err)
         err = read_sizes(r, line->attrs, d);
-    if (err && d && !d->has_place) {
-        d->has_place = true;
-        d->x = x;
-        d->y = y;
-    }
-    return err;
+    return hm_fail_place(d, err, x, y);
 }
 
 /* --- turning them --- */
@@ -352,20 +347,22 @@ static enum hm_err check_outline(const struct hm_rough *r, double *area2, struct
 }
 
 /* Which way do the banks run? Beside each other with the shorter end sections, or, if their outline
- * would cross itself then, the other way. Leaves the right bank turned. */
-static enum hm_err pair_banks(struct hm_rough *r, double *area2, struct hm_diag *d)
+ * would cross itself then, the other way. Leaves the right bank turned; *alike: it is as drawn. */
+static enum hm_err pair_banks(struct hm_rough *r, double *area2, bool *alike, struct hm_diag *d)
 {
     struct hm_line *left = &r->side[HM_LEFT], *right = &r->side[HM_RIGHT];
     struct hm_rough banks = *r; /* the outline without drawn sections */
     banks.side[HM_INFLOW].n = banks.side[HM_OUTFLOW].n = 0;
-    if (apart(first_of(left), first_of(right)) + apart(last_of(left), last_of(right)) >
-        apart(first_of(left), last_of(right)) + apart(last_of(left), first_of(right)))
+    *alike = apart(first_of(left), first_of(right)) + apart(last_of(left), last_of(right)) <=
+             apart(first_of(left), last_of(right)) + apart(last_of(left), first_of(right));
+    if (!*alike)
         reverse(right);
     struct hm_diag first = {0}, second = {0};
     enum hm_err err = check_outline(&banks, area2, &first);
     if (!err)
         return HM_OK;
     reverse(right);
+    *alike = !*alike;
     if (err == HM_EGEOM && !check_outline(&banks, area2, &second))
         return HM_OK;
     if (d && !d->err)
@@ -399,23 +396,39 @@ static int flow_direction(const struct hm_rough *r)
     return said;
 }
 
-static enum hm_err turn(struct hm_rough *r, struct hm_diag *d)
+/* Is left on the left, looking downstream? That is where the sections drawn say, or else the way in
+ * which both banks were drawn; banks drawn against each other say nothing. */
+static enum hm_err check_swapped(const struct hm_rough *r, bool alike, double area2,
+                                 struct hm_diag *d)
 {
-    struct hm_line *left = &r->side[HM_LEFT], *right = &r->side[HM_RIGHT];
-    const double *corner = right->xyz;
-    double area2 = 0;
-    enum hm_err err = pair_banks(r, &area2, d);
-    if (err)
-        return err;
+    const double *left = r->side[HM_LEFT].xyz;
     int flow = flow_direction(r);
     if (flow == 2)
-        return hm_fail_at(d, HM_EGEOM, corner[0], corner[1],
+        return hm_fail_at(d, HM_EGEOM, left[0], left[1],
                           "inflow and outflow of surface '%s' lie at the same end", r->name);
     if ((flow > 0 && area2 < 0) || (flow < 0 && area2 > 0))
-        return hm_fail_at(d, HM_EGEOM, corner[0], corner[1],
+        return hm_fail_at(d, HM_EGEOM, left[0], left[1],
                           "the banks of surface '%s' are swapped: looking from its inflow to its "
                           "outflow, left lies on the right",
                           r->name);
+    if (flow == 0 && alike && area2 < 0)
+        return hm_fail_at(d, HM_EGEOM, left[0], left[1],
+                          "the banks of surface '%s' are swapped (or drawn upstream, which a line "
+                          "with side=inflow would say): left lies on the right",
+                          r->name);
+    return HM_OK;
+}
+
+static enum hm_err turn(struct hm_rough *r, struct hm_diag *d)
+{
+    struct hm_line *left = &r->side[HM_LEFT], *right = &r->side[HM_RIGHT];
+    double area2 = 0;
+    bool alike;
+    enum hm_err err = pair_banks(r, &area2, &alike, d);
+    if (!err)
+        err = check_swapped(r, alike, area2, d);
+    if (err)
+        return err;
     if (area2 < 0) { /* left on the left tells where downstream is */
         reverse(left);
         reverse(right);

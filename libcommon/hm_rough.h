@@ -2,8 +2,9 @@
  *
  * A surface is bounded by two banks and two end sections, lines with the attributes
  * `surface=NAME side=left|right|inflow|outflow`; left and right as one looks downstream. Banks may
- * be drawn in either direction. A section that was not drawn is straight. A line with side=axis
- * only gives its surface a place in the order: hm_axis makes banks of it.
+ * be drawn in either direction, but two in one direction without a section run downstream. A
+ * section that was not drawn is straight. A line with side=axis only gives its surface a place in
+ * the order: hm_axis makes banks of it.
  *
  *          left    0 ───────────────────> n-1
  *                  ^                       ^
@@ -51,8 +52,9 @@ enum hm_err hm_rough_parse_elements(const char *text, struct hm_rough_size *size
 /* All surfaces in n sets of lines, in order of appearance; `defaults` holds where no attribute
  * along= across= snap= elements= bend= says otherwise. *list is malloc'd, free with hm_rough_free.
  * HM_EGEOM with the place when a bank is missing, given twice, closed, a point, or when the outline
- * of a surface crosses itself, or a section drawn is not one between the banks' ends; HM_EFORMAT
- * for attributes that make no sense, or that two lines of a surface contradict each other in. */
+ * of a surface crosses itself, when left lies on the right, or a section drawn is not one between
+ * the banks' ends; HM_EFORMAT for attributes that make no sense, or that two lines of a surface
+ * contradict each other in. */
 enum hm_err hm_rough_collect(const struct hm_lines *sets, size_t n,
                              const struct hm_rough_size *defaults, struct hm_rough **list,
                              size_t *count, struct hm_diag *d);

@@ -307,7 +307,9 @@ static enum hm_err find_string(struct hm_strings *s, const struct hm_border *b,
     hm_attr_get(line->attrs, "string", name, sizeof name);
     enum hm_err err = check_line(line, name, d);
     if (!err)
-        err = hm_attr_number(line->attrs, "tolerance", mean_edge(b), &tolerance, d);
+        err =
+            hm_fail_place(d, hm_attr_number(line->attrs, "tolerance", mean_edge(b), &tolerance, d),
+                          line->xyz[0], line->xyz[1]);
     if (err)
         return err;
     struct way way = nearest_way(b, line);

@@ -450,6 +450,9 @@ refuse "a bend that is none" "bend=270 is no angle" "$left
 300 0 0"
 refuse "nor as an option" "an angle is from 0 to 180" "$left
 $right" -B -1
+refuse "a half-width that is no number" "half_width=wide.* at 0 20" '> surface=main side=axis half_width=wide
+0 20 0
+300 20 0'
 refuse "an axis without half-width" "half_width=20.* at 0 20" '> surface=main side=axis
 0 20 0
 300 20 0'
@@ -494,6 +497,21 @@ $right
 > surface=main side=inflow
 300 0 0
 300 40 0"
+refuse "swapped banks, both drawn downstream" "the banks of surface 'main' are swapped .* at 2 1" '> surface=main side=left
+2 1 0
+300 0 0
+> surface=main side=right
+0 40 0
+150 44 0
+300 40 0'
+refuse "or in a bend that turns back" "the banks of surface 'main' are swapped .* at " "$(
+    echo '> surface=main side=left'; arc_from -170 60 10; echo '> surface=main side=right'; arc_from -170 40 10)"
+lines "$right
+$(echo "$left" | sed 's/^0 40/20 40/')
+> surface=main side=inflow
+300 0 0
+300 40 0" | sed 's/side=left/side=x/; s/side=right/side=left/; s/side=x/side=right/' >upstream.txt
+ok "both drawn upstream, when an inflow says so" bsmesh -c 10/8 -e 10/4 upstream.txt plane.xyz
 refuse "inflow and outflow at one end" "lie at the same end" "$left
 $right
 > surface=main side=inflow

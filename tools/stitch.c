@@ -126,10 +126,8 @@ static void tell_stitched(struct hm_cli *cli, const char *name, const struct hm_
                    (long long)s->loose, (long long)s->kept, (long long)s->filled,
                    (long long)s->reused, (long long)s->fresh);
     if (s->widened > 0)
-        hm_cli_say(cli,
-                   "%s: %lld mouths are narrower than two edges of the meshes before it, and "
-                   "were widened",
-                   name, (long long)s->widened);
+        hm_cli_say(cli, "%s: %s narrower than two edges of the meshes before it widened", name,
+                   hm_cli_counted(s->widened, "mouth").text);
     if (s->npoor > 0)
         hm_cli_say(cli, "%s: an angle under %g degrees in %s of the gap:", name, HM_STITCH_POOR,
                    hm_cli_counted((int64_t)s->npoor, "triangle").text);

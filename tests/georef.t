@@ -340,6 +340,8 @@ for from in m us-ft; do
     echo 9 48 1e308 >high.xyz
     must_fail "a height that no double holds, $from" 2 "beyond all doubles at" georef -z 32 -f $from -u ft high.xyz
 done
+{ echo "#hm 1 points text"; echo "#units m ft m"; echo "#data"; echo "1 2 3"; echo "#end"; } >mixed.hm
+must_fail "x and y in different units" 2 "x is in m, y in ft" georef -t same mixed.hm
 must_fail "an empty file" 2 "empty" georef empty
 must_fail "an empty file of references" 2 "empty" georef -m empty
 head -n 6 utm.hm >cut.hm

@@ -269,6 +269,9 @@ static void choose_units(struct hm_cli *cli, const struct hm_header *h, struct p
         p->in_xy = &degree;
     else if (!cmd.from)
         p->in_xy = said_unit(cli, h, 0);
+    if (!in_degrees && !cmd.from && said_unit(cli, h, 1) != p->in_xy)
+        hm_cli_die(cli, "%s: x is in %s, y in %s", hm_reader_name(hm_cli_reader(cli)),
+                   p->in_xy->name, said_unit(cli, h, 1)->name);
     if (p->known && p->target.kind == HM_CRS_LONLAT)
         p->out_xy = &degree;
 }

@@ -218,7 +218,8 @@ static int64_t convert_all(struct hm_cli *cli)
         if (!((int)h.kind & kinds))
             hm_cli_say(cli, "%s: %s not written as %s", source, kind, name);
         else if (count++ && one)
-            hm_cli_die(cli, "%s: a %s file holds one %s, this is the second", source, name, kind);
+            hm_cli_die(cli, "%s: a file of %s holds one %s, this is the second", source, name,
+                       kind);
         else
             hm_cli_check(cli, convert(cli, &h, &left_out, &d), &d);
         hm_header_free(&h);

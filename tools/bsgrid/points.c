@@ -134,7 +134,8 @@ static void check_spread(struct hm_cli *cli, const struct survey *s)
 {
     const char *where = s->has_window ? " in the window" : "";
     if (s->used == 0)
-        hm_cli_die(cli, "no points with a height%s", where);
+        hm_cli_die(cli, "no points with a height%s%s", where,
+                   cmd.classes || cmd.returns != ALL ? " that -c and --returns let pass" : "");
     if (s->spread.over == AN_AREA)
         return;
     hm_cli_die(cli, "the points tell no surface: %s%s",

@@ -27,12 +27,18 @@ static size_t band_end(const struct lspia *l, size_t band)
     return (band + 1) * BAND < l->s->m ? (band + 1) * BAND : l->s->m;
 }
 
-/* Whole numbers are taken off last, which is exact: so windows of a lattice place a sample alike.
- */
+/* Spacings from the first node to x, in steps too fine to matter. Whole numbers are taken off those
+ * exactly, so windows of a lattice place a sample alike, also when x = 0 lies in one of them. */
+static double spacings_to(double x, double spacing, int64_t first)
+{
+    const double steps = 4294967296; /* a spacing */
+    return rint(x / spacing * steps) / steps - (double)first;
+}
+
 static struct sample sample_at(const struct hm_anchor *a, const double *xyz)
 {
-    return (struct sample){xyz[0] / a->spacing - (double)a->i0, xyz[1] / a->spacing - (double)a->j0,
-                           xyz[2], 0};
+    return (struct sample){spacings_to(xyz[0], a->spacing, a->i0),
+                           spacings_to(xyz[1], a->spacing, a->j0), xyz[2], 0};
 }
 
 /* Row under a sample, or m when it is outside of the net. */

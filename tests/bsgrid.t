@@ -86,6 +86,10 @@ for options in "-n 4 -f points" "-d 0.7 -n 4 -k 3 -f points" "-d 0.7 -g 3"; do
         awk '!/^#/ && $1 >= 1012 && $1 <= 1038 && $2 >= 2012 && $2 <= 2048 { print $3 }' >cut.heights
     same "so do the heights with $options" window cut.heights
 done
+awk '{ print $1 - 1020, $2 - 2020, $3 }' wavy.xyz >around.xyz
+bsgrid -m mean -n 2 -f points -R 10/20/10/20 around.xyz 2>/dev/null | grep -v '^#' >window
+bsgrid -m mean -n 2 -f points -R -9/20/-9/20 around.xyz 2>/dev/null | awk '!/^#/ && $1 >= 10 && $2 >= 10' >cut.around
+same "and where one of them has the origin in it" window cut.around
 true_that "of which a part is empty, a part filled" "$(grep -c nan cut) < 200 && $(grep -c nan cut) > 0 && $(bsgrid -m mean -g 3 -R \
     1010/1030/2010/2030 sparse.xyz 2>/dev/null | grep -c nan) > 20"
 

@@ -28,7 +28,7 @@ judge() {
 # seconds NAME LIMIT COMMAND
 seconds() {
     : >times
-    for run in $(seq "$RUNS"); do
+    for _ in $(seq "$RUNS"); do
         measure "$3"
         echo "$t" >>times
     done

@@ -78,28 +78,10 @@ static void put_survey(struct hm_json *j, const struct hm_survey *s)
     hm_json_close(j, ']');
 }
 
-static void put_strata(struct hm_json *j, const struct hm_quality *q)
+static void put_verdicts(struct hm_json *j, const struct hm_residuals *r, double survey_error)
 {
-    static const char *const by[] = {NULL, "class", "region", "zone"};
-    hm_json_text(j, "strata_by", by[q->strata]);
-    hm_json_open(j, "strata", '[');
-    for (size_t k = 0; k < q->survey.nstrata; k++) {
-        char name[64];
-        hm_quality_stratum(q, q->survey.stratum[k].key, name, sizeof name);
-        hm_json_open(j, NULL, '{');
-        hm_json_text(j, "stratum", name);
-        put_residuals(j, &q->survey.stratum[k].residuals);
-        hm_json_close(j, '}');
-    }
-    hm_json_close(j, ']');
-}
-
-static void put_verdicts(struct hm_json *j, const struct hm_quality *q)
-{
-    static const char *const word[] = {"pass", "miss", "warn"};
     struct hm_verdict v[HM_VERDICTS];
-    size_t n = q->survey.nworst ? hm_verdicts(hm_survey_all(&q->survey), q->survey_error, v) : 0;
-    hm_json_number(j, "survey_error", q->survey_error);
+    size_t n = r->n ? hm_verdicts(r, survey_error, v) : 0;
     hm_json_open(j, "verdicts", '[');
     for (size_t k = 0; k < n; k++) {
         hm_json_open(j, NULL, '{');
@@ -107,8 +89,26 @@ static void put_verdicts(struct hm_json *j, const struct hm_quality *q)
         hm_json_text(j, "source", v[k].source);
         hm_json_number(j, "value", v[k].value);
         hm_json_text(j, "unit", v[k].unit);
-        hm_json_text(j, "judgement", word[v[k].judgement]);
+        hm_json_text(j, "judgement", hm_judgement_name(v[k].judgement));
         hm_json_bool(j, "met", v[k].judgement == HM_JUDGE_PASS);
+        hm_json_close(j, '}');
+    }
+    hm_json_close(j, ']');
+}
+
+static void put_strata(struct hm_json *j, const struct hm_quality *q)
+{
+    static const char *const by[] = {NULL, "class", "region", "zone"};
+    hm_json_text(j, "strata_by", by[q->strata]);
+    hm_json_open(j, "strata", '[');
+    for (size_t k = 0; k < q->survey.nstrata; k++) {
+        const struct hm_stratum *s = &q->survey.stratum[k];
+        char name[64];
+        hm_quality_stratum(q, s->key, name, sizeof name);
+        hm_json_open(j, NULL, '{');
+        hm_json_text(j, "stratum", name);
+        put_residuals(j, &s->residuals);
+        put_verdicts(j, &s->residuals, q->survey_error);
         hm_json_close(j, '}');
     }
     hm_json_close(j, ']');
@@ -249,7 +249,8 @@ static void put_quality(struct hm_json *j, const struct hm_quality *q)
     hm_json_text(j, "units", hm_header_get(h, "units"));
     put_survey(j, &q->survey);
     put_strata(j, q);
-    put_verdicts(j, q);
+    hm_json_number(j, "survey_error", q->survey_error);
+    put_verdicts(j, hm_survey_all(&q->survey), q->survey_error);
     put_lines(j, &q->lines);
     put_elements(j, q);
     put_validity(j, &q->check);

@@ -8,7 +8,7 @@
 
 enum { LINES_SHOWN = 20 };
 
-/* Those with the longest way that no edge follows first, of equals the earlier. */
+/* Those of which most metres are not followed first, of equals the earlier. */
 static int by_unfollowed(const void *pa, const void *pb)
 {
     const struct hm_fidelity_line *a = *(const struct hm_fidelity_line *const *)pa;
@@ -51,7 +51,7 @@ void hm_report_lines(struct hm_report_page *p, const struct hm_fidelity *f)
     for (size_t k = 0; k < f->n && k < LINES_SHOWN; k++)
         say_line(p, line[k]);
     if (f->n > LINES_SHOWN)
-        hm_say(p, "  (of %zu lines those with the longest way not followed)\n", f->n);
+        hm_say(p, "  (of %zu lines those of which most metres are not followed)\n", f->n);
     if (!isnan(f->all.aside.value))
         hm_say(p, "  furthest aside           %.3f m at %.3f %.3f\n", f->all.aside.value,
                f->all.aside.x, f->all.aside.y);

@@ -86,24 +86,27 @@ static void say_strata(struct hm_report_page *p, const struct hm_quality *q)
     if (q->strata == HM_STRATA_NONE)
         return;
     hm_say(p, "\nResiduals by %s\n", by[q->strata]);
-    hm_say(p, "  %-10s    points   green  yellow     red     mean    sigma     rmse      p95\n",
-           by[q->strata]);
+    hm_say(
+        p,
+        "  %-10s    points   green  yellow     red     mean    sigma     rmse      p95  verdict\n",
+        by[q->strata]);
     for (size_t k = 0; k < s->nstrata; k++) {
         char name[64];
         hm_quality_stratum(q, s->stratum[k].key, name, sizeof name);
-        say_row(p, name, &s->stratum[k].residuals);
-        hm_say(p, "  %7.4f\n", hm_residuals_percentile(&s->stratum[k].residuals, 95));
+        const struct hm_residuals *r = &s->stratum[k].residuals;
+        say_row(p, name, r);
+        hm_say(p, "  %7.4f  %s\n", hm_residuals_percentile(r, 95),
+               hm_judgement_name(hm_verdict_worst(r, q->survey_error)));
     }
 }
 
 static void say_verdicts(struct hm_report_page *p, const struct hm_quality *q)
 {
-    static const char *const word[] = {"pass", "miss", "warn"};
     struct hm_verdict v[HM_VERDICTS];
     size_t n = hm_verdicts(hm_survey_all(&q->survey), q->survey_error, v);
     hm_say(p, "\nVerdicts\n");
     for (size_t k = 0; k < n; k++)
-        hm_say(p, "  %s  %-34s %10.*f %-2s %s\n", word[v[k].judgement], v[k].what,
+        hm_say(p, "  %s  %-34s %10.*f %-2s %s\n", hm_judgement_name(v[k].judgement), v[k].what,
                *v[k].unit                        ? 3
                : v[k].value == floor(v[k].value) ? 0
                                                  : 2,

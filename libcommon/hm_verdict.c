@@ -47,3 +47,21 @@ size_t hm_verdicts(const struct hm_residuals *r, double survey_error,
           "rule of practice; else 1.96 RMSE is not 95 %");
     return (size_t)(v - list);
 }
+
+enum hm_judgement hm_verdict_worst(const struct hm_residuals *r, double survey_error)
+{
+    struct hm_verdict list[HM_VERDICTS];
+    enum hm_judgement worst = HM_JUDGE_PASS;
+    size_t n = hm_verdicts(r, survey_error, list);
+    for (size_t k = 0; k < n; k++)
+        if (list[k].judgement != HM_JUDGE_PASS && worst != HM_JUDGE_MISS)
+            worst = list[k].judgement;
+    return worst;
+}
+
+const char *hm_judgement_name(enum hm_judgement judgement)
+{
+    static const char *const names[] = {
+        [HM_JUDGE_PASS] = "pass", [HM_JUDGE_MISS] = "miss", [HM_JUDGE_WARN] = "warn"};
+    return names[judgement];
+}

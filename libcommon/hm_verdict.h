@@ -35,6 +35,12 @@ enum { HM_VERDICTS = 10 };
 size_t hm_verdicts(const struct hm_residuals *r, double survey_error,
                    struct hm_verdict list[HM_VERDICTS]);
 
+/* HM_JUDGE_MISS when one of these is missed, else HM_JUDGE_WARN when one warns. */
+enum hm_judgement hm_verdict_worst(const struct hm_residuals *r, double survey_error);
+
+/* "pass", "miss", "warn" */
+const char *hm_judgement_name(enum hm_judgement judgement);
+
 /* RMSE of the mesh with the survey's own error in it (ASPRS 2023), metres. */
 double hm_verdict_total_rmse(const struct hm_residuals *r, double survey_error);
 

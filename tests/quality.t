@@ -293,6 +293,9 @@ quality -J --by zone -o report.json ring.hm zones.txt classed.hm
 echo "2 -0.25 1 0.25" >want
 echo "$(stratum dike points) $(stratum dike mean) $(stratum berm points) $(stratum berm mean)" >got
 same "by polygon" want got
+awk '/"strata":/ { on = 1 } /^  "survey_error"/ { on = 0 } on && /"source": "FEMA/ { getline; print $2 + 0 }' report.json >got
+printf '0.353553\n0.25\n' >want
+same "each is judged by the standards, with its own RMSE" want got
 quality --by zone ring.hm zones.txt classed.hm >report.txt
 for order in "classed.hm ring.hm zones.txt" "classed.hm zones.txt ring.hm" "zones.txt ring.hm classed.hm"; do
     quality --by zone $order >other.txt

@@ -197,6 +197,7 @@ static void verdicts(void)
     ok(verdict(v, n, "FEMA", "RMSE")->judgement == HM_JUDGE_PASS &&
            verdict(v, n, "ASPRS", "class")->judgement == HM_JUDGE_MISS,
        "0.14 m passes FEMA, and misses ASPRS with the survey's 0.06 m");
+    ok(hm_verdict_worst(&s, 0.06) == HM_JUDGE_MISS, "which is the worst, though others warn");
     ok(verdict(v, n, "NSSDA", "20 check")->judgement == HM_JUDGE_PASS &&
            verdict(v, n, "ASPRS", "30 check")->judgement == HM_JUDGE_WARN,
        "25 points are enough for NSSDA, not for ASPRS");
@@ -205,13 +206,17 @@ static void verdicts(void)
     ok(!verdict(v, n, "ASPRS", "twice") &&
            verdict(v, n, "ASPRS", "class")->judgement == HM_JUDGE_PASS,
        "without a survey error it is not judged");
+    ok(hm_verdict_worst(&s, 0) == HM_JUDGE_WARN, "25 points: no verdict is missed, but one warns");
+    for (int i = 0; i < 15; i++)
+        hm_residuals_add(&s, (struct hm_residual){0, 0, i % 2 ? 0.14 : -0.14}, NULL);
+    ok(hm_verdict_worst(&s, 0) == HM_JUDGE_PASS, "40 points: all pass");
     for (int i = 0; i < 5; i++)
         hm_residuals_add(&s, (struct hm_residual){0, 0, 1}, NULL);
     n = hm_verdicts(&s, 0, v);
     ok(verdict(v, n, "NDEP", "95th")->judgement == HM_JUDGE_MISS &&
            verdict(v, n, "rule", "normal")->judgement == HM_JUDGE_WARN &&
            verdict(v, n, "ASPRS", "mean")->judgement == HM_JUDGE_WARN,
-       "five of 30 a metre off: percentile, skew and mean say so");
+       "five of 45 a metre off: percentile, skew and mean say so");
     hm_residuals_free(&s);
 }
 

@@ -127,8 +127,9 @@ sed 's/^#owners.*/&\n#crs EPSG:4326/' mesh.hm >degrees.hm
 must_fail "longitude and latitude" 2 "georef" hmdraw -3 degrees.hm
 sed 's/#string inflow 0 3/#string inflow 0 99/' mesh.hm >string.hm
 must_fail "a string of nodes that are not there" 2 "inflow|node" hmdraw -3 string.hm
-hmdraw -3 -o grid.html mesh.hm cloud.xyz 2>points.err
-ok "what is not shown is said" grep -q "not" points.err
+hmdraw -3 -o grid.html mesh.hm cloud.xyz lines.txt 2>points.err
+ok "what is not shown is said" grep -q "; 1 layer of points or grids not" points.err
+ok "lines too" grep -q "; 1 line with a role not" points.err
 if [ -e /dev/full ]; then
     must_fail "a full disk" 2 "No space" sh -c 'hmdraw -3 mesh.hm >/dev/full'
 fi
@@ -199,5 +200,16 @@ true_that "the floodplain light grey" "$4 > 180 && ($4 - $6) ^ 2 < 200"
 true_that "nothing beside it" "$7 == 255 && $8 == 255 && $9 == 255"
 ! cmp -s height.png near.png && ! cmp -s near.png turned.png
 report $? "the wheel and a drag show it otherwise"
+
+# --- graphics that the browser takes away ---
+gone='globalThis.gone = canvas.getContext("webgl2").getExtension("WEBGL_lose_context")'
+browse page.html size 800 600 shot before.png js "$gone, gone.loseContext(), 1" \
+    js 'failure.hidden' js 'gone.restoreContext(), 1' js 'failure.hidden' shot after.png >said 2>browse.err
+report $? "the graphics lost and restored"
+sed 's/^/# /' browse.err
+printf '1\nfalse\n1\ntrue\n' >want
+sed 's/^True$/true/; s/^False$/false/' said >got
+same "it is said while they are gone" want got
+same "and all is there again" before.png after.png
 
 done_testing

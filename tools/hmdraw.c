@@ -376,25 +376,31 @@ static bool has_residuals(const struct layer *layer)
     return layer->kind == HM_POINTS && hm_header_field(&layer->of.points.header, "residual") >= 0;
 }
 
-/* Lines and residuals on the meshes; one line about what the view does not show. */
+static void say_left_out(struct hm_cli *cli, int64_t n, const char *noun, const char *which)
+{
+    if (n)
+        hm_cli_say(cli, "the 3D view shows meshes, breaklines and residuals; %s %s not",
+                   hm_cli_counted(n, noun).text, which);
+}
+
+/* Lines and residuals on the meshes; a word about what the view does not show. */
 static void furnish_scene(struct hm_cli *cli, struct scene *scene, const struct drawing *drawing)
 {
     struct hm_diag d = {0};
-    int64_t left_out = 0;
+    int64_t layers = 0, lines = 0;
     hm_cli_check(cli, scene_add_borders(scene, &d), &d);
     for (size_t k = 0; k < drawing->n; k++) {
         const struct layer *layer = &drawing->layer[k];
         if (layer->kind == HM_LINES)
-            scene_add_breaklines(scene, &layer->of.lines);
+            lines += scene_add_breaklines(scene, &layer->of.lines);
         else if (has_residuals(layer))
             hm_cli_check(cli, scene_add_residuals(scene, &layer->of.points, &d), &d);
         else
-            left_out += layer->kind != HM_MESH;
+            layers += layer->kind != HM_MESH;
     }
     hm_cli_check(cli, scene_add_colourings(scene, &d), &d);
-    if (left_out)
-        hm_cli_say(cli, "the 3D view shows meshes, breaklines and residuals; %s not",
-                   hm_cli_counted(left_out, "grid or set of points").text);
+    say_left_out(cli, layers, "layer", "of points or grids");
+    say_left_out(cli, lines, "line", "with a role");
 }
 
 /* The colouring to begin with: as asked, else the last of those that tell elements apart. */

@@ -172,12 +172,15 @@ static void add_piece(struct scene *s, int kind, const double a[3], const double
         add_line(s, kind, xyz, 2);
 }
 
-void scene_add_breaklines(struct scene *s, const struct hm_lines *l)
+int64_t scene_add_breaklines(struct scene *s, const struct hm_lines *l)
 {
+    int64_t others = 0;
     for (size_t k = 0; k < l->n; k++) {
         const struct hm_line *line = &l->line[k];
-        if (hm_role_of(line->attrs) != HM_ROLE_BREAKLINE)
+        if (hm_role_of(line->attrs) != HM_ROLE_BREAKLINE) {
+            others++;
             continue;
+        }
         size_t from = 0;
         for (size_t i = 0; i <= line->n; i++) {
             if (i < line->n && is_near(s, &line->xyz[3 * i]))
@@ -189,6 +192,7 @@ void scene_add_breaklines(struct scene *s, const struct hm_lines *l)
         if (line->closed && line->n > 1)
             add_piece(s, SCENE_BREAKLINES, &line->xyz[3 * (line->n - 1)], line->xyz);
     }
+    return others;
 }
 
 /* x, y, z of a node. */

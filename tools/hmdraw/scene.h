@@ -76,8 +76,9 @@ enum hm_err scene_add_mesh(struct scene *s, const struct view *v, const struct h
 enum hm_err scene_place(struct scene *s, struct hm_diag *d);
 /* Then what lies on it: the boundary and the boundary strings of the meshes, */
 enum hm_err scene_add_borders(struct scene *s, struct hm_diag *d);
-/* the breaklines among lines, residuals of points with that field, */
-void scene_add_breaklines(struct scene *s, const struct hm_lines *l);
+/* the breaklines among lines (how many of these have a role and are left out), residuals of points
+ * with that field, */
+int64_t scene_add_breaklines(struct scene *s, const struct hm_lines *l);
 enum hm_err scene_add_residuals(struct scene *s, const struct hm_points *p, struct hm_diag *d);
 /* and last the classes that colour elements. */
 enum hm_err scene_add_colourings(struct scene *s, struct hm_diag *d);

@@ -23,6 +23,7 @@ class Page {
         this.listenToPanel();
         this.listenToPointer();
         this.listenToKeys();
+        this.listenToGraphics();
         new ResizeObserver(() => this.resize()).observe(this.canvas);
         this.resize();
         this.camera.home();
@@ -313,11 +314,28 @@ class Page {
             this.redraw();
         });
     }
+
+    /* After sleep, or when short of memory, browsers take the graphics away, and may give them back. */
+    listenToGraphics() {
+        this.canvas.addEventListener("webglcontextlost", e => {
+            e.preventDefault(); // else they never come back
+            fail("The browser has taken the graphics away. If they do not come back, load the page again.");
+        });
+        this.canvas.addEventListener("webglcontextrestored", () => {
+            element("failure").hidden = true;
+            this.renderer.load();
+            this.setColouring();
+        });
+    }
+}
+
+function fail(text) {
+    element("failure").hidden = false;
+    element("failure").textContent = text;
 }
 
 try {
     new Page();
 } catch (failure) {
-    element("failure").hidden = false;
-    element("failure").textContent = failure.message;
+    fail(failure.message);
 }

@@ -10,6 +10,12 @@ class Renderer {
             throw new Error("This browser does not show WebGL 2, which the view needs.");
         this.gl = gl;
         this.model = model;
+        this.load();
+    }
+
+    /* What the graphics hold: again, when they have lost it. */
+    load() {
+        const { gl, model } = this;
         this.mesh = this.program("mesh.vert", "mesh.frag");
         this.pick = this.program("mesh.vert", "pick.frag");
         this.line = this.program("line.vert", "line.frag");

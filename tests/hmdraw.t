@@ -227,6 +227,17 @@ if python3 -c 'import zlib' 2>/dev/null; then
     true_that "wires too fine are left out" "$1 > 230 && $4 > 230 && $7 > 230 && ${10} > 230"
     true_that "and drawn where there is room" "${13} < 230"
 
+    # sixty materials: more than a legend has room for
+    awk 'BEGIN { print "#hm 1 mesh text\n#data"
+        for (i = 0; i <= 60; i++) print "v", i, 0, 0, 0, 0 "\nv", i, 30, 0, 0, 0
+        for (i = 0; i < 60; i++) print "q", 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1, i
+        print "#end" }' >sixty.hm
+    hmdraw -s 800 -o sixty.png sixty.hm
+    set -- $(pixel sixty.png 625,39 625,150)
+    true_that "a legend has a swatch for each material" "$4 != $6"
+    set -- $(for y in $(seq 265 310); do pixel sixty.png 625,$y; done)
+    true_that "but none under the scale bar" "$(echo "$*" | awk '{ for (i = 1; i <= NF; i += 3) if (($i - $(i + 1)) ^ 2 + ($i - $(i + 2)) ^ 2 > 400) bad = 1 } END { print !bad }')"
+
     # colours that eyes without one kind of cones tell apart, too
     awk 'BEGIN { print "#hm 1 mesh text\n#data"
         for (i = 0; i <= 8; i++) print "v", i, 0, 0, 0, 0 "\nv", i, 1, 0, 0, 0

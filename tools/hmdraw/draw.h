@@ -19,7 +19,7 @@ struct range {
     double lo, hi; /* lo == hi: one value */
 };
 
-enum { LEGEND_ITEMS = 24, LEGEND_TEXT = 40 };
+enum { LEGEND_TEXT = 40 };
 
 /* What a colour means. */
 struct scale {
@@ -136,8 +136,8 @@ struct page {
     bool has_ground;      /* something opaque was drawn already: fills become transparent */
     struct rgb *ground;   /* colours of the grids so far, row by row; NULL: none */
     struct image relief;  /* light and shade alone of the grids so far; surface NULL: none */
-    struct legend_item item[LEGEND_ITEMS];
-    size_t nitems;
+    struct legend_item *item;
+    size_t nitems, items_cap;
 };
 
 /* Lay out a page whose window (w, e, s, n of `view`) is set, `size` pixels wide or, if the window
@@ -160,10 +160,12 @@ void page_shade(struct page *page);
 
 /* --- legend.c --- */
 
-/* Enter an item, or add its count to the one that has the same text and mark. */
+/* Enter an item, or add its count to the one that has the same text and mark. When memory is short
+ * it is left out. */
 void legend_add(struct page *page, enum legend_mark mark, struct rgb colour, int64_t count,
                 const char *format, ...) __attribute__((format(printf, 5, 6)));
 void legend_bar(struct page *page, enum ramp ramp, const struct scale *scale);
+/* As many items as there is room for, and how many more there are. */
 void legend_draw(struct page *page, double x, double y);
 /* 1, 2 or 5 times a power of ten, the greatest not over v > 0, which must be finite. */
 double nice_step(double v);

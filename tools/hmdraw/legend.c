@@ -50,10 +50,10 @@ static struct legend_item *find(struct page *page, enum legend_mark mark, const 
     for (size_t k = 0; k < page->nitems; k++)
         if (page->item[k].mark == mark && !strcmp(page->item[k].text, text))
             return &page->item[k];
-    if (page->nitems == LEGEND_ITEMS)
+    if (!hm_grow(&page->item, &page->items_cap, page->nitems + 1, sizeof *page->item))
         return NULL;
     struct legend_item *item = &page->item[page->nitems++];
-    item->mark = mark;
+    *item = (struct legend_item){.mark = mark};
     snprintf(item->text, sizeof item->text, "%s", text);
     return item;
 }
@@ -153,7 +153,8 @@ static double draw_bar(struct page *page, const struct legend_item *item, double
     set_colour(page, INK, 1);
     cairo_set_line_width(cr, 0.05 * em);
     cairo_stroke(cr);
-    const struct ticks ticks = ticks_within(r, r.hi / 4 - r.lo / 4);
+    const double parts = fmin(4, height / (2.25 * em));
+    const struct ticks ticks = ticks_within(r, r.hi / parts - r.lo / parts);
     for (int k = 0; k < ticks.n; k++) {
         char text[32];
         double at = top + height * (1 - range_part(r, tick_print(&ticks, k, text)));
@@ -219,21 +220,42 @@ static double draw_item(struct page *page, const struct legend_item *item, doubl
     return below ? 2.8 * em : 1.7 * em;
 }
 
-void legend_draw(struct page *page, double x, double y)
+/* Items, and between them and `end` how many had no room; returns where the next would stand. */
+static double draw_items(struct page *page, double x, double y, double end)
 {
-    const double em = page->em, bottom = page->height - 2.2 * em;
-    size_t bars = 0;
-    y += em;
-    set_colour(page, INK, 1);
-    for (size_t k = 0; k < page->nitems; k++)
+    const double em = page->em, line = 1.7 * em, most = 2.8 * em; /* of an item */
+    size_t more = 0;
+    for (size_t k = 0; k < page->nitems; k++) {
         if (page->item[k].mark == MARK_BAR)
-            bars++;
+            continue;
+        if (more || y + most + line > end)
+            more++;
         else
             y += draw_item(page, &page->item[k], x, y);
-    /* what is left above the scale bar is shared by the colour bars */
-    double room = bars ? (bottom - 5 * em - y) / (double)bars - 3 * em : 0;
+    }
+    if (more) {
+        char text[40];
+        snprintf(text, sizeof text, "and %zu more", more);
+        draw_text(page, x + 2.5 * em, y, em, text);
+        y += line;
+    }
+    return y;
+}
+
+void legend_draw(struct page *page, double x, double y)
+{
+    const double em = page->em, bottom = page->height - 2.2 * em, end = bottom - 5 * em;
+    const double least = 4 * em;  /* of a colour bar */
+    const double around = 3 * em; /* its title and margins */
+    size_t bars = 0;
     for (size_t k = 0; k < page->nitems; k++)
-        if (page->item[k].mark == MARK_BAR && room > 2 * em)
+        bars += page->item[k].mark == MARK_BAR;
+    set_colour(page, INK, 1);
+    y = draw_items(page, x, y + em, end - (double)bars * (least + around));
+    /* what is left above the scale bar is shared by the colour bars */
+    double room = bars ? (end - y) / (double)bars - around : 0;
+    for (size_t k = 0; k < page->nitems; k++)
+        if (page->item[k].mark == MARK_BAR && room > least)
             y += draw_bar(page, &page->item[k], x, y + em, fmin(9 * em, room));
     draw_scale(page, x, bottom);
     draw_north(page, x + 15 * em, bottom);

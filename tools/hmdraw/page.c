@@ -106,6 +106,7 @@ enum hm_err page_close(struct page *page, cairo_write_func_t write, void *closur
     if (!err && page->format == FORMAT_PNG)
         err = check(cairo_surface_write_to_png_stream(page->surface, write, closure), d);
     free(page->ground);
+    free(page->item);
     if (page->relief.surface)
         cairo_surface_destroy(page->relief.surface);
     cairo_surface_finish(page->surface);

@@ -252,6 +252,8 @@ static enum hm_err check_pair(struct even *w, int32_t e)
 static void sort_pairs(struct even *w)
 {
     size_t n = 0;
+    if (w->n_pairs == 0)
+        return;
     qsort(w->pair, w->n_pairs, sizeof *w->pair, by_vertices);
     for (size_t k = 0; k < w->n_pairs; k++)
         if (n == 0 || by_vertices(&w->pair[n - 1], &w->pair[k]) != 0)
@@ -286,7 +288,8 @@ static enum hm_err find_pairs_again(struct even *w)
         if (is_bad(w, &w->pair[k], &e))
             w->pair[n++] = w->pair[k];
     w->n_pairs = n;
-    qsort(w->touched, w->n_touched, sizeof *w->touched, by_number);
+    if (w->n_touched > 0)
+        qsort(w->touched, w->n_touched, sizeof *w->touched, by_number);
     for (size_t k = 0; !err && k < w->n_touched; k++) {
         int32_t v = w->touched[k],
                 first = v == HM_TRI_INFINITY ? HM_TRI_NONE : hm_tri_edge_from(t, v);

@@ -95,6 +95,8 @@ static void measure_points(struct survey *s, const double *xyz, size_t n)
 
 static enum hm_err add_points(struct survey *s, const double *xyz, size_t n, struct hm_diag *d)
 {
+    if (n == 0)
+        return HM_OK;
     measure_points(s, xyz, n);
     if (!s->hold)
         return hm_cellmean_add(s->cells, xyz, n, d);

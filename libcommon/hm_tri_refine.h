@@ -1,10 +1,11 @@
 /* hm_tri_refine: a constrained triangulation made finer until its triangles are good. Layer 2.
  *
  * Delaunay refinement (Ruppert 1995; Chew 1993; off-centres, Üngör 2004): a vertex goes near the
- * circumcentre of a bad triangle, the one with the shortest edge first; when it would come too near
- * a constraint, that constraint is split instead. Small angles between constraints cannot be
- * mended: there constraints are split on circles about the corner, and triangles that the corner
- * forces are spared (Miller, Pav & Walkington 2003).
+ * circumcentre of a bad triangle, but no farther from its shortest edge than angle and area allow.
+ * Triangles over their area come before those that only have a small angle, in both the one with
+ * the shortest edge first. When the vertex would come too near a constraint, that is split instead.
+ * Small angles between constraints cannot be mended: there constraints are split on circles about
+ * the corner, and triangles that the corner forces are spared (Miller, Pav & Walkington 2003).
  */
 #ifndef HM_TRI_REFINE_H
 #define HM_TRI_REFINE_H
